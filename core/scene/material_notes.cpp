@@ -48,7 +48,8 @@ std::vector<std::string> materialNotes(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const SceneMaterial& material = scene.materials[i];
     if (!isUsed[i]) continue;
-    const std::string start = fmt::format("{}: material '{}'", scene.name, material.name);
+    const std::string& name = material.scattersAs.empty() ? material.name : material.scattersAs;
+    const std::string start = fmt::format("{}: material '{}'", scene.name, name);
     if (material.hasDiffusion)
       notes.push_back(start +
                       ": a diffusion profile is biased; model = \"walk\" is what it approximates");

@@ -70,6 +70,7 @@ struct SceneMaterial {
   // beside it.
   glm::vec3 sigmaScattering{0.0f};
   float phase = 0.0f;
+  std::string scattersAs{};   // the [[material]] or extras that say how; "": the file's own
   bool hasDiffusion = false;  // light leaves it by a diffusion profile, not by a random walk
   float lightFactor = 1.0f;   // factor on data.emission (core/scene/compiled/light_factor.h)
   bool isPart = false;        // of a mixture alone: no instance has it

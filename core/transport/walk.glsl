@@ -84,7 +84,10 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
   walk.isScattered = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
-  if (RL_HAS(RL_FEATURE_SCATTERING)) walk.normalW = s.nGeoW;
+  if (RL_HAS(RL_FEATURE_SCATTERING)) {
+    walk.posW = s.posW;
+    walk.normalW = s.nGeoW;
+  }
 }
 
 // Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
@@ -152,6 +155,7 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.isScattered = 0u;
   walk.stretches = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
+  walk.posW = ray.origin;
   walk.normalW = vec3(0.0f, 0.0f, 1.0f);
   walk.isAlive = 1u;
   return walk;

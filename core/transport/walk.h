@@ -24,8 +24,9 @@ struct Walk {
   uint isScattered;    // 1: the ray travels, since the last surface, in a medium that scatters
   uint stretches;      // number of stretches in such media so far; collisions are no `bounces`
   vec3 ofMedium;       // factors of such a medium since the last surface
-  vec3 normalW;        // of the last surface; only with RL_FEATURE_SCATTERING
-  uint isAlive;        // 0: absorbed, or ended by Russian roulette
+  vec3 posW;           // of the last surface, as the next; only with RL_FEATURE_SCATTERING
+  vec3 normalW;
+  uint isAlive;  // 0: absorbed, or ended by Russian roulette
 };
 
 // Stretches in media that scatter, after which a path is ended and counted (RL_HEALTH_LONG_WALKS).
@@ -37,8 +38,8 @@ const float RL_PHASE_DIFFUSION = 2.0f;
 // Largest distance to the point of exit that is searched, in units of the profile's scale; beyond,
 // 3/4 exp(-24/3) of the light would leave.
 const float RL_DIFFUSION_REACH = 24.0f;
-// Surfaces that one search meets; those beyond are left out.
-const uint RL_DIFFUSION_HITS = 16u;
+// Surfaces that one search meets, of whatever thing; those beyond are left out.
+const uint RL_DIFFUSION_HITS = 64u;
 
 // Returned by onVertex() to end the path.
 const uint RL_WALK_ENDS = 0xffffffffu;

@@ -167,7 +167,11 @@ Json materialsJson(const LiveView& view) {
         json["type"] = "number";
         json["range"] = {p.lo, p.hi};
       }
-      if (p.kind == ClosureParameter::Kind::color) json["type"] = "colour";
+      if (p.kind == ClosureParameter::Kind::color) {
+        json["type"] = "colour";
+        json["help"] = fmt::format("{}; from {:g} to {:g}", p.help, p.lo, p.hi);
+        json["has_picker"] = p.lo == 0.0 && p.hi == 1.0;
+      }
       if (p.kind == ClosureParameter::Kind::choice) json["choices"] = p.choices;
       json["value"] = materialValue(p, value);
       json["is_set"] = isSet;

@@ -73,12 +73,15 @@ bool isOwnCamera(const LiveView& view) {
   return isSameCamera(loaded.scene->source().cameras.at(loaded.camera), view.camera());
 }
 
-std::string sceneToml(const ViewFacts& facts, const MaterialEdits& edits) {
+std::string sceneToml(const ViewFacts& facts, const MaterialEdits& edits,
+                      const std::string& sceneTitle) {
   const SceneRequest request = fromAnywhere(facts.request);
   const bool hasSettings = !splitSceneSettings(request.scene).second.empty();
   const std::string scene =
       request.scene + (edits.empty() ? "" : (hasSettings ? "&" : "?") + settingsText(edits));
   std::string text = fmt::format("[[scene]]\nscene = {}\n", quoted(scene));
+  // Without it the settings would be part of the names of files.
+  if (!edits.empty()) text += fmt::format("name = {}\n", quoted(sceneTitle));
   if (!request.camera.empty()) text += fmt::format("camera = {}\n", quoted(request.camera));
   if (!request.environment.empty())
     text += fmt::format("environment = {}\n", quoted(request.environment));
@@ -338,11 +341,13 @@ std::string sessionToml(const ViewFacts& facts, const LiveView& view, const std:
   const ViewSettings& settings = view.settings();
   if (!view.hasScene())
     return "# Images of `restlab view`: `restlab view FILE` opens them.\n" + viewToml(view);
+  const std::string& title = view.loaded().scene->source().name;
   std::string text =
       "# A session of `restlab view`: `restlab view FILE` opens it, `restlab run FILE` measures "
       "it.\n";
   text += fmt::format("name = {}\n\n", quoted(name));
-  text += sceneToml(facts, settings.materials) + settingsToml(view) +
+  text += sceneToml(facts, settings.materials, title.substr(0, title.find('?'))) +
+          settingsToml(view) +
           fmt::format("\n[reference]\nspp = {}\n",
                       std::max(kLeastReferenceSpp, view.reference().spp())) +
           cameraToml(view);

@@ -162,7 +162,8 @@ TEST(Wax, AProfileIsAsBrightAsAHalfSpace) {
     EXPECT_LT(mean.error[c], 0.01 * expected) << "too noisy to tell";
   }
   wax.albedo = glm::vec3(1.0f);
-  for (const float ior : {1.0f, 1.4f}) {
+  wax.meanFreePath = {0.05f, 0.1f, 1e-5f};  // also so short that rounding of positions would show
+  for (const float ior : {1.0f, 1.4f, 3.0f}) {
     wax.ior = ior;
     const Mean white = meanOf(boxOf(wax, 8.0, 5.0), "path", 20, 20);
     for (int c = 0; c < 3; ++c) {
@@ -170,6 +171,19 @@ TEST(Wax, AProfileIsAsBrightAsAHalfSpace) {
       EXPECT_LT(white.error[c], 0.02) << "too noisy to tell";
     }
   }
+}
+
+// The tint counts on the way in and on the way out.
+TEST(Wax, AProfileIsTintedAsTheWalk) {
+  Wax wax;
+  wax.albedo = glm::vec3(1.0f);
+  wax.hasDiffusion = true;
+  Scene scene = boxOf(wax, 8.0, 5.0)->source();
+  scene.materials[0].data.baseColor = {0.5f, 0.8f, 1.0f};
+  const Mean mean = meanOf(CompiledScene::build(std::move(scene)), "path", 20, 20);
+  const double expected[3] = {0.25, 0.64, 1.0};
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(mean.value[c], expected[c], 4.0 * mean.error[c] + 1e-3) << "channel " << c;
 }
 
 // A small lamp on a half space, seen from above: its light in a ring of pixels after another.

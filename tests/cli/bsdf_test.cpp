@@ -162,6 +162,19 @@ TEST_F(BsdfTest, SuitesTakeSceneFiles) {
   EXPECT_NE(run("info clay.scene.toml").out.find("oren_nayar"), std::string::npos);
 }
 
+// A material that breaks a law renders, and the run says so.
+TEST_F(BsdfTest, RunsSayWhichLawsTheirMaterialsBreak) {
+  write("raw.scene.toml",
+        "base = \"cornell-box\"\n[[material]]\nname = \"old\"\nkind = \"phong\"\n"
+        "[[assign]]\nmaterial = \"White\"\nto = \"old\"\n");
+  const ProgramResult result = run("render raw.scene.toml -o a.exr --resolution 16x16");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::string note = "material 'old' (phong, model = raw) breaks laws of a BSDF";
+  EXPECT_NE((result.out + result.err).find(note), std::string::npos) << result.out << result.err;
+  const auto info = nlohmann::json::parse(run("info raw.scene.toml --json").out);
+  EXPECT_EQ(info["notes"].size(), 1u);
+}
+
 }  // namespace
 
 }  // namespace restlab::cli_test

@@ -103,6 +103,10 @@ TEST_F(CompareMaskTest, SceneFileIsFoundAgain) {
   ASSERT_EQ(run("render " + scene + " -o a.exr --resolution 32x32 -q").code, 0);
   const auto block = json("--ref a.exr a.exr --any-reference --object ShortBlock");
   EXPECT_GT(block["mask"]["pixels"], 20);
+  // The sky of a built-in scene has a name, but no file.
+  write("y.scene.toml", "base = \"courtyard\"\n[camera]\nposition = [0.0, 1.0, 0.0]\n");
+  ASSERT_EQ(run("render y.scene.toml -o b.exr --resolution 32x32 -q").code, 0);
+  EXPECT_EQ(run("compare --ref b.exr b.exr --any-reference --without-lights").code, 0);
 }
 
 TEST_F(CompareMaskTest, SceneIsFoundAgainWithItsEnvironment) {

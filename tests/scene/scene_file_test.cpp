@@ -372,7 +372,7 @@ TEST_F(SceneFile, NotesOnMaterialsThatAreUsed) {
   const std::vector<std::string> said = notesOf(raw);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0],
-            "x: material 'White' (phong, model = raw) breaks laws of a BSDF: energy and "
+            "x: material 'm' (phong, model = raw) breaks laws of a BSDF: energy and "
             "reciprocity");
   EXPECT_EQ(notesOf(raw, "mix").size(), 1u) << "a part";
   EXPECT_TRUE(notesOf(raw, "clay").empty()) << "not used";

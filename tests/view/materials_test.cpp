@@ -55,6 +55,8 @@ TEST_F(ViewMaterialsTest, AreThoseOfTheFileWithTheSettings) {
   EXPECT_EQ(view.shown().contentHash, hash);
   view.apply(Undo{});
   EXPECT_NE(view.shown().contentHash, hash);
+  view.apply(Redo{});
+  EXPECT_EQ(view.shown().contentHash, hash);
 }
 
 TEST_F(ViewMaterialsTest, WhatTheFileWouldRefuseChangesNothing) {
@@ -88,6 +90,10 @@ TEST_F(ViewMaterialsTest, AreSavedWithTheSession) {
   std::ofstream(file) << sessionToml(facts, view, "session");
   const ViewStart again = startOfSuite(file);
   EXPECT_EQ(again.prepared.contentHash, view.shown().contentHash);
+  std::ifstream saved(file);
+  const std::string text{std::istreambuf_iterator<char>(saved), {}};
+  EXPECT_NE(text.find("\nname = \"x\"\n"), std::string::npos)
+      << "settings would be part of names of files: " << text;
 }
 
 }  // namespace

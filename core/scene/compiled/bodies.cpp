@@ -123,9 +123,10 @@ Bodies findBodies(const Scene& scene) {
     const SceneMaterial& m = scene.materials[scene.instances[body.instance].material];
     // A profile knows no directions: it takes the medium that scatters to all sides and spreads
     // light as far (similarity).
-    const glm::vec3 scattering = m.sigmaScattering * (m.hasDiffusion ? 1.0f - m.phase : 1.0f);
+    const bool hasDiffusion = m.hasDiffusion && m.sigmaScattering != glm::vec3(0.0f);
+    const glm::vec3 scattering = m.sigmaScattering * (hasDiffusion ? 1.0f - m.phase : 1.0f);
     bodies.media.emplace_back(m.data.sigmaAbsorption + scattering, m.data.ior);
-    bodies.media.emplace_back(scattering, m.hasDiffusion ? rl::RL_PHASE_DIFFUSION : m.phase);
+    bodies.media.emplace_back(scattering, hasDiffusion ? rl::RL_PHASE_DIFFUSION : m.phase);
   }
   return bodies;
 }

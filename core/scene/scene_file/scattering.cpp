@@ -331,6 +331,7 @@ void scatterAs(const Scattering& scattering, SceneMaterial& material) {
   material.sigmaScattering = scattering.sigmaScattering;
   material.phase = scattering.phase;
   material.hasDiffusion = scattering.hasDiffusion;
+  material.scattersAs = scattering.name;
   material.closure = scattering.closure;
   if (scattering.kind->closure != nullptr) m.closure = scattering.kind->closure->kind;
 }

@@ -238,7 +238,7 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
                "[environment] takes 'file', an .hdr or .exr, or 'radiance', a colour: one of them");
   if (file.empty()) {
     EnvironmentMap map;
-    map.source = kRadianceEnvironment;
+    map.source = "radiance";
     map.width = 2;
     map.height = 1;
     map.radiance.assign(2, readRadiance(table, "radiance", 0.0));

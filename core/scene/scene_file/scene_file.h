@@ -13,9 +13,6 @@
 
 namespace restlab {
 
-// EnvironmentMap::source of `[environment] radiance`.
-constexpr const char* kRadianceEnvironment = "radiance";
-
 // Returns whether a path ends in .scene.toml.
 bool isSceneFile(const std::filesystem::path& file);
 

@@ -11,6 +11,19 @@
 
 namespace restlab {
 
+namespace {
+
+// Returns whether the environment is the scene's own, of which an image knows no file.
+bool hasEnvironment(const std::string& name, const std::string& environment) {
+  if (!isBuiltinScene(name) && !isSceneFile(splitSceneSettings(name).first)) return false;
+  const Scene scene = loadScene(name);
+  if (!scene.environment) return false;
+  const std::string& own = scene.environment->source;
+  return own == environment || (own.empty() && environment == "built-in");
+}
+
+}  // namespace
+
 ImageScene sceneOfImage(const std::string& file,
                         const std::map<std::string, std::string>& metadata) {
   const auto word = [&](const char* key) {
@@ -32,8 +45,6 @@ ImageScene sceneOfImage(const std::string& file,
   request.camera = word("camera_index");
   const std::string environment = word("environment");
   if (environment != "none") {
-    if (environment != "built-in" && environment != kRadianceEnvironment)
-      request.environment = environment;
     request.environmentRotation = std::strtod(word("environment_rotation").c_str(), nullptr);
     request.environmentScale = std::strtod(word("environment_scale").c_str(), nullptr);
   }
@@ -47,6 +58,8 @@ ImageScene sceneOfImage(const std::string& file,
     transportSchema().assign(scene.config, {{info.name, filter}});
   }
   try {
+    if (environment != "none" && !hasEnvironment(request.scene, environment))
+      request.environment = environment;
     scene.prepared = prepareScene(request);
   } catch (const Error& error) {
     throw Error(ExitCode::badInput,

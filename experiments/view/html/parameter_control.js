@@ -59,7 +59,7 @@ class ParameterControl {
       box.addEventListener('change', () => send(box.checked));
       return {element: box, show: value => { box.checked = value; }, isBusy: false};
     }
-    if (info.type === 'colour') return makeColourInput(send, id);
+    if (info.type === 'colour') return makeColourInput(info, send, id);
     if (info.choices && info.choices.length) return makeSelect(info.choices, send, {id});
     if (info.range) {
       return new NumberInput({name: info.name, lo: info.range[0], hi: info.range[1],
@@ -84,9 +84,9 @@ class ParameterControl {
   }
 }
 
-// A colour as linear Rec. 709 in text, "0.5" or "[0.7, 0.4, 0.2]", with a picker where it is at most
-// 1.
-function makeColourInput(send, id) {
+// A colour as linear Rec. 709 in text, "0.5" or "[0.7, 0.4, 0.2]", with a picker where its range is
+// that of an albedo.
+function makeColourInput(info, send, id) {
   const field = make('input', {type: 'text', id, class: 'colour'});
   const picker = make('input', {type: 'color', 'aria-label': 'pick the colour'});
   const toSrgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
@@ -103,7 +103,7 @@ function makeColourInput(send, id) {
   const show = value => {
     field.value = value;
     const numbers = numbersOf(value);
-    picker.hidden = !(numbers.length === 3 && numbers.every(v => v >= 0 && v <= 1));
+    picker.hidden = !(info.has_picker && numbers.length === 3 && numbers.every(v => v >= 0 && v <= 1));
     if (picker.hidden) return;
     const hex = v => Math.round(255 * toSrgb(v)).toString(16).padStart(2, '0');
     picker.value = `#${numbers.map(hex).join('')}`;
