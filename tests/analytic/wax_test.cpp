@@ -110,6 +110,19 @@ Mean meanOf(const std::shared_ptr<const CompiledScene>& scene, const char* integ
   return mean;
 }
 
+// The methods that resample have the mean of path.
+void expectMethodsAgree(const std::shared_ptr<const CompiledScene>& compiled) {
+  const Mean path = meanOf(compiled, "path", 16, 60);
+  for (const char* integrator : {"restir_di", "restir_gi", "restir_pt"}) {
+    const Mean other = meanOf(compiled, integrator, 8, 120);
+    for (int c = 0; c < 3; ++c) {
+      const double error = std::hypot(path.error[c], other.error[c]);
+      EXPECT_NEAR(other.value[c], path.value[c], 4.0 * error) << integrator << ", channel " << c;
+      EXPECT_LT(error, 0.04 * path.value[c]) << "too noisy to tell";
+    }
+  }
+}
+
 // Channels differ in albedo and in mean free path: distances are drawn for one and weighed for all.
 TEST(Wax, AHalfSpaceIsAsBrightAsChandrasekharSays) {
   Wax wax;
@@ -253,16 +266,7 @@ TEST(Wax, MethodsAgreeOnAProfile) {
   scatter(wax, scene.materials[smooth]);
   scatter(wax, scene.materials[rough]);
   lookAlongZ(scene, 0.5);
-  const auto compiled = CompiledScene::build(std::move(scene));
-  const Mean path = meanOf(compiled, "path", 16, 60);
-  for (const char* integrator : {"restir_di", "restir_gi", "restir_pt"}) {
-    const Mean other = meanOf(compiled, integrator, 8, 120);
-    for (int c = 0; c < 3; ++c) {
-      const double error = std::hypot(path.error[c], other.error[c]);
-      EXPECT_NEAR(other.value[c], path.value[c], 4.0 * error) << integrator << ", channel " << c;
-      EXPECT_LT(error, 0.04 * path.value[c]) << "too noisy to tell";
-    }
-  }
+  expectMethodsAgree(CompiledScene::build(std::move(scene)));
 }
 
 // A lamp and a matte red wall inside of wax: restir_pt agrees with path, though it resamples the
@@ -281,16 +285,7 @@ TEST(Wax, BodiesInsideOfItAreLit) {
   m.data.sigmaAbsorption = {0.2f, 0.3f, 0.1f};
   m.data.ior = 1.0f;
   lookAlongZ(scene, 0.3);
-  const auto compiled = CompiledScene::build(std::move(scene));
-  const Mean path = meanOf(compiled, "path", 16, 60);
-  for (const char* integrator : {"restir_di", "restir_gi", "restir_pt"}) {
-    const Mean other = meanOf(compiled, integrator, 8, 120);
-    for (int c = 0; c < 3; ++c) {
-      const double error = std::hypot(path.error[c], other.error[c]);
-      EXPECT_NEAR(other.value[c], path.value[c], 4.0 * error) << integrator << ", channel " << c;
-      EXPECT_LT(error, 0.04 * path.value[c]) << "too noisy to tell";
-    }
-  }
+  expectMethodsAgree(CompiledScene::build(std::move(scene)));
 }
 
 // Light that does not come out in 1023 collisions is lost, and said.
