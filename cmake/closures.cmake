@@ -46,8 +46,8 @@ function(rl_add_closures)
   rl_read_closures(closures)
   list(LENGTH RL_FEATURE_NAMES bit)
   math(EXPR scene "(1 << ${bit}) - 1")
-  # Leaves out the features that no glTF file but scene files ask for.
-  math(EXPR gltf "${scene} & ~(${RL_FEATURE_BIT_AMBIENT} | ${RL_FEATURE_BIT_SCATTERING})")
+  # Leaves out the features that no glTF file asks for but scene files and settings.
+  math(EXPR gltf "${scene} & ~(${RL_FEATURE_BIT_AMBIENT} | ${RL_FEATURE_BIT_SCATTERING} | ${RL_FEATURE_BIT_LIGHT_TREE})")
   set(names ${RL_FEATURE_NAMES})
   set(constants "const uint RL_CLOSURE_GLTF = 0u;  // the lobes of core/shading/bsdf.glsl\n")
   set(kinds 0)

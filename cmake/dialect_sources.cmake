@@ -6,6 +6,9 @@ function(rl_embed_dialect output)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   endforeach()
   list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/*.glsl) # of devices alone
+  foreach(file IN ITEMS cpu_kernel.inl cpu_trace.inl cpu_kernel.h embree.h alpha_filter.h) # of units alone
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/${file})
+  endforeach()
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
   list(SORT files)
   list(TRANSFORM files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)

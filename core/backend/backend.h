@@ -41,22 +41,31 @@ struct BackendOptions {
   std::string device;      // Vulkan backend: part of the device's name; "": the preferred one
   std::string rayTracing;  // "embree", "bvh", "query"; "": the backend's best
   bool validate = false;   // Vulkan's validation layers
+  // CPU backend: kernels may be compiled for exactly what a scene needs.
+  bool exactKernels = false;
 };
 
 // A kernel that was made ready for a device.
 struct KernelReport {
   std::string kernel;
   uint32_t mask = 0;
-  bool fromDisk = false;                // the SPIR-V came from the disk cache
-  double glslMs = 0.0, driverMs = 0.0;  // dialect to SPIR-V, SPIR-V to code
+  bool fromDisk = false;   // the SPIR-V, or the CPU's code, came from the disk cache
+  double compileMs = 0.0;  // dialect to SPIR-V, or to the CPU's code
+  double driverMs = 0.0;   // SPIR-V to code
 };
 
 // Work that a session did before its first frame.
 struct StartupReport {
-  double timeMs = 0.0;  // compile time of the kernels; 0 if they were compiled with the program
+  double timeMs = 0.0;  // until kernels were compiled; 0 if they were compiled with the program
   std::vector<KernelReport> kernels;
   bool readsTexels = false;          // a kernel reads through texels, not by address
   std::vector<std::string> notices;  // one line each, for the user
+};
+
+// A kernel for a mask of features.
+struct KernelUse {
+  std::string kernel;
+  uint32_t mask = 0;
 };
 
 // One pass of a frame: a kernel over all pixels, or over entries.
@@ -98,6 +107,13 @@ class Backend {
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
   // kernels.
   virtual uint32_t maskFor(const std::string& kernel, uint32_t needed) const = 0;
+  // Compiles kernels with the masks that maskFor() gave, where that takes long and several can be
+  // compiled at once. Returns false if one cannot be compiled: maskFor() then gives masks of
+  // kernels that are there.
+  virtual bool compile(const std::vector<KernelUse>&, StartupReport&) { return true; }
+  // Bytes of machine code of a kernel that was compiled for the scene; 0: it is built in, or the
+  // device does not tell.
+  virtual size_t codeBytes(const KernelUse&) const { return 0; }
   // Makes a pass ready to run, so that no frame has to wait for a compiler.
   virtual void prepare(const PassRun& pass, StartupReport& report) = 0;
 

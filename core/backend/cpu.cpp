@@ -1,4 +1,4 @@
-// The CPU backend: Embree traces, TBB runs the tiles.
+// The CPU backend: Embree traces, TBB runs the tiles. Kernels are built in, or units.
 #include <fmt/format.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -12,6 +12,7 @@
 
 #include "core/backend/backend.h"
 #include "core/backend/embree.h"
+#include "core/backend/units/kernel_units.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/scene/compiled/compiled_scene.h"
@@ -48,6 +49,7 @@ class CpuBackend final : public Backend {
   CpuBackend(std::shared_ptr<const CompiledScene> scene, const BackendOptions& options)
       : scene_(std::move(scene)),
         rayTracing_(options.rayTracing.empty() ? "embree" : options.rayTracing),
+        isExact_(options.exactKernels && rayTracing_ == "embree"),
         threads_(options.threads > 0
                      ? options.threads
                      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
@@ -107,12 +109,34 @@ class CpuBackend final : public Backend {
       std::memcpy(buffers_[to].data(), buffers_[from].data(), buffers_[from].size());
   }
 
+  // A unit of its own where no built-in kernel has exactly these features.
   uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
-    return find(kernel, needed).mask;
+    const uint32_t builtIn = findBuiltIn(kernel, needed).mask;
+    if (!isExact_ || !hasFeatures(kernel)) return builtIn;
+    const bool isReady = kernelUnits().find({kernel, needed}) != nullptr;
+    if (isReady || builtIn == needed || kernelUnits().areThere()) return needed;
+    lacksUnits_ = true;
+    return builtIn;
   }
 
-  // Kernels are compiled with the program.
-  void prepare(const PassRun& pass, StartupReport&) override { find(pass.kernel, pass.mask); }
+  bool compile(const std::vector<KernelUse>& kernels, StartupReport& report) override {
+    std::vector<KernelUnit> units;
+    for (const KernelUse& use : kernels) {
+      if (isExact_ && findBuiltIn(use.kernel, use.mask).mask != use.mask)
+        units.push_back({use.kernel, use.mask});
+    }
+    const bool isWhole = units.empty() || kernelUnits().prepare(units, report);
+    if (lacksUnits_) kernelUnits().notice(report);
+    return isWhole;
+  }
+
+  size_t codeBytes(const KernelUse& use) const override {
+    return isExact_ ? kernelUnits().codeBytes({use.kernel, use.mask}) : 0;
+  }
+
+  void prepare(const PassRun& pass, StartupReport& report) override {
+    compile({{pass.kernel, pass.mask}}, report);
+  }
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     FrameResult result;
@@ -136,14 +160,22 @@ class CpuBackend final : public Backend {
     if (rayTracing_ == "bvh") scene_->bindBvh();
   }
 
-  const rl::CpuKernelInfo& find(const std::string& kernel, uint32_t needed) const {
+  const rl::CpuKernelInfo& findBuiltIn(const std::string& kernel, uint32_t needed) const {
     const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
     if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
     return *info;
   }
 
+  // The kernel with exactly the mask, or a built-in one with more features.
+  rl::CpuKernelEntry find(const std::string& kernel, uint32_t mask) const {
+    const rl::CpuKernelInfo& builtIn = findBuiltIn(kernel, mask);
+    if (builtIn.mask == mask) return builtIn.entry;
+    const rl::CpuKernelEntry unit = kernelUnits().find({kernel, mask});
+    return unit != nullptr ? unit : builtIn.entry;
+  }
+
   double run(const PassRun& pass, const rl::FrameData& frame, PassCounters& counters) {
-    const rl::CpuKernelInfo& info = find(pass.kernel, pass.mask);
+    const rl::CpuKernelEntry entry = find(pass.kernel, pass.mask);
     std::vector<void*> addresses;
     for (BufferId b : pass.buffers)
       addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
@@ -169,7 +201,7 @@ class CpuBackend final : public Backend {
                                    std::min((ty + 1) * kTile, size.y)};
       // Counted locally: neighbouring entries of the vector share cache lines.
       rl::CpuKernelCounters local;
-      info.entry(args, tile, local);
+      entry(args, tile, local);
       tileCounters[i] = local;
     };
     const auto start = std::chrono::steady_clock::now();
@@ -211,6 +243,8 @@ class CpuBackend final : public Backend {
 
   std::shared_ptr<const CompiledScene> scene_;
   std::string rayTracing_;
+  bool isExact_;
+  mutable bool lacksUnits_ = false;  // a built-in kernel serves where a unit was wanted
   int threads_;
 #ifndef RESTLAB_JTHREAD_TILES
   tbb::task_arena arena_;

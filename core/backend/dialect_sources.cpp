@@ -1,6 +1,7 @@
 #include "core/backend/dialect_sources.h"
 
 #include <algorithm>
+#include <map>
 
 namespace restlab {
 
@@ -32,6 +33,32 @@ std::optional<std::string> dialectSource(const std::string& path) {
                                   [&](const DialectSource& source) { return source.path == path; });
   if (found == all.end()) return std::nullopt;
   return std::string(found->text);
+}
+
+std::vector<std::string> includedPaths(std::string_view text) {
+  constexpr std::string_view mark = "#include \"";
+  std::vector<std::string> paths;
+  for (size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + 1)) {
+    const size_t begin = at + mark.size(), end = text.find('"', begin);
+    if (end == text.npos) break;
+    paths.emplace_back(text.substr(begin, end - begin));
+  }
+  return paths;
+}
+
+std::vector<DialectSource> includedSources(std::vector<std::string> roots) {
+  std::map<std::string_view, std::string_view> all;
+  for (const DialectSource& source : dialectSources()) all.emplace(source.path, source.text);
+  std::map<std::string_view, std::string_view> found;
+  while (!roots.empty()) {
+    const auto source = all.find(roots.back());
+    roots.pop_back();
+    if (source == all.end() || !found.insert(*source).second) continue;
+    for (std::string& path : includedPaths(source->second)) roots.push_back(std::move(path));
+  }
+  std::vector<DialectSource> sources;
+  for (const auto& [path, text] : found) sources.push_back({path, text});
+  return sources;
 }
 
 }  // namespace restlab

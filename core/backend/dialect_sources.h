@@ -28,4 +28,10 @@ bool registerDialect(std::vector<DialectSource> sources, std::vector<DialectKern
 // Text of a file; nullopt if there is none.
 std::optional<std::string> dialectSource(const std::string& path);
 
+// Paths in the #include "..." lines of a text, in order.
+std::vector<std::string> includedPaths(std::string_view text);
+// The files `roots` and those that they include, directly or not, sorted by path. Paths that name
+// no file of the program are left out.
+std::vector<DialectSource> includedSources(std::vector<std::string> roots);
+
 }  // namespace restlab

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "core/backend/dialect_sources.h"
 #include "core/backend/vulkan_error.h"
 #include "core/base/error.h"
 
@@ -56,11 +57,7 @@ std::string expandedKey(const std::string& text, const SourceReader& read) {
     const std::string part = std::move(open.back());
     open.pop_back();
     all += part;
-    for (size_t at = part.find("#include \""); at != std::string::npos;
-         at = part.find("#include \"", at + 1)) {
-      const size_t begin = at + 10, end = part.find('"', begin);
-      if (end == std::string::npos) break;
-      const std::string path = part.substr(begin, end - begin);
+    for (const std::string& path : includedPaths(part)) {
       if (seen[path]) continue;
       seen[path] = true;
       if (std::optional<std::string> source = read(path)) open.push_back(path + "\n" + *source);
@@ -154,7 +151,7 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   GlslKernel ofMask = kernel;
   ofMask.features = mask;
   const std::vector<uint32_t> spirv = spirvOf(ofMask, name, read, done.fromDisk);
-  done.glslMs = msSince(start);
+  done.compileMs = msSince(start);
   const auto driverStart = std::chrono::steady_clock::now();
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -186,7 +183,7 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   prime(known);
   done.driverMs = msSince(driverStart);
   saveDriverCache();
-  report.timeMs += done.glslMs + done.driverMs;
+  report.timeMs += done.compileMs + done.driverMs;
   report.kernels.push_back(done);
   report.notices.insert(report.notices.end(), notices_.begin(), notices_.end());
   notices_.clear();

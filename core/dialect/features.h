@@ -25,7 +25,8 @@ const uint RL_FEATURE_SMOOTH_NORMALS = 4096u;  // vertex normals that differ fro
 const uint RL_FEATURE_MULTISCATTER = 8192u;    // multiple-scattering compensation of GGX
 const uint RL_FEATURE_AMBIENT = 16384u;        // light from everywhere that nothing shadows
 const uint RL_FEATURE_SCATTERING = 32768u;     // media that scatter inside bodies
-// From bit 16 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
+const uint RL_FEATURE_LIGHT_TREE = 65536u;     // receivers choose lamps by a hierarchy
+// From bit 17 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
 // them), RL_FEATURE_ALL and RL_FEATURE_BITS are made of closures.list.
 
 RL_NAMESPACE_END

@@ -29,6 +29,7 @@
 #include "core/geometry/surface.glsl"
 #include "core/shading/light/environment.glsl"
 #include "core/shading/light/texture.glsl"
+#include "core/shading/light/tree.glsl"
 #include "core/shading/light.glsl"
 #include "core/geometry/trace.glsl"
 #include "core/transport/media.glsl"

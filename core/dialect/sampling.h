@@ -24,7 +24,8 @@ const uint RL_VERTEX_CACHE_UPDATE = 0x3000u;
 const uint RL_VERTEX_CACHE_REUSE = 0x3800u;
 const uint RL_VERTEX_CANDIDATES = 0x4000u;  // + index of a light candidate
 const uint RL_VERTEX_COLLISION =
-    0x10000u;  // times 1 + the number of the stretch, + the vertex before
+    0x10000u;                          // times 1 + the number of the stretch, + the vertex before
+const uint RL_VERTEX_TURN = 0x10000u;  // times the level of a hierarchy, + the vertex
 
 // Steps of the R2 sequence, 1/g and 1/g^2 of 2^32, g^3 = g + 1 (Roberts 2018).
 const uint RL_R2_STEP_X = 3242174889u;
@@ -55,7 +56,8 @@ const uint RL_DIM_COLLISION_CHANNEL = 53u;
 const uint RL_DIM_COLLISION_DISTANCE = 54u;
 const uint RL_DIM_PHASE_U = 55u;
 const uint RL_DIM_PHASE_V = 56u;
-const uint RL_DIM_EXIT = 57u;  // surface where a diffusion profile leaves a body
+const uint RL_DIM_EXIT = 57u;        // surface where a diffusion profile leaves a body
+const uint RL_DIM_LIGHT_TURN = 58u;  // in the hierarchy of lamps; vertex + RL_VERTEX_TURN a level
 const uint RL_DIMENSIONS = 64u;
 
 RL_NAMESPACE_END

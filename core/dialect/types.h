@@ -176,9 +176,18 @@ struct Light {
   uint primitive;
   uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
   float magnitude;  // metres; largest coordinate of the corners and within their transform
-  uint padding;
+  uint trail;       // parts from the root of the hierarchy to the lamp, 2 bits each
 };
 RL_STATIC_ASSERT_SIZE(Light, 80);
+
+// Hierarchy of lamps (core/scene/compiled/light_tree.h). A node has four parts: a uvec4 with a word
+// of each for the box (low x, y, z, high x, y, z), the power (as the probability that the alias
+// table gives a lamp of the part; 0: there is no such part), the axis of the cone of normals (x, y,
+// z), its angle and how far from a normal lamps emit (cosines of 16 bits), and the node of the
+// part, or:
+const uint RL_LIGHT_NODE_LEAF = 0x80000000u;  // | lamp
+const uint RL_LIGHT_NODE_UVEC4S = 12u;
+const uint RL_LIGHT_TREE_DEPTH = 16u;  // nodes between the root and a lamp, at most
 
 // Vose alias method: column i keeps i if 32 random bits are below `keep`, otherwise gives `other`.
 struct AliasEntry {
@@ -247,6 +256,7 @@ struct SceneData {
   FloatRef srgbToLinear;  // 256 entries
   LightRef lights;
   AliasRef lightAlias;
+  Uvec4Ref lightTree;         // null: no session chooses lamps by the receiver
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the
@@ -270,6 +280,8 @@ struct SceneData {
   vec3 ambient;        // radiance that every surface gets from everywhere, without shadows
   vec3 background;     // radiance that the camera sees where it sees nothing
   uint hasBackground;  // 0: it sees the environment
+  float lampShare;     // probability that lightAlias gives a lamp of the hierarchy
+  uint hasMedia;       // 1: some bodies absorb, scatter, touch or overlap (RL_FEATURE_VOLUME)
 };
 
 const uint RL_COMPONENT_DIRECT =
@@ -309,8 +321,12 @@ struct FrameData {
   uint stillFrames;      // frames directly before this one with the same camera and parameters
   float radianceFrames;  // frames averaged by the integrator's radiance once its history is old
   uint cameraAbsorbs;    // RL_CAMERA_ABSORBS_*
+  uint lightTree;        // 1: lamps are chosen by the hierarchy, 0: by the alias table
+  uint padding0;
+  uint padding1;
+  uint padding2;
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 192);
+RL_STATIC_ASSERT_SIZE(FrameData, 208);
 
 // Numerical health: counters that every kernel adds to; names in core/frame/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

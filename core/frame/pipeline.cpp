@@ -96,6 +96,7 @@ bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& repo
     const bool needsMore = hasFeatures(pass.kernel) && (maskOf(pass.kernel) & ~used_) != 0;
     if (needsMore) return false;
   }
+  if (!backend_.compile(kernelsOf(changed), report)) return false;
   parameters_ = parameters;
   columns_.clear();
   for (const GraphPass& pass : changed.passes()) {
@@ -240,6 +241,12 @@ uint32_t Pipeline::maskOf(const std::string& kernel) {
   const auto [mask, isNew] = masks_.try_emplace(kernel);
   if (isNew) mask->second = backend_.maskFor(kernel, wanted_);
   return mask->second;
+}
+
+std::vector<KernelUse> Pipeline::kernelsOf(const FrameGraph& graph) {
+  std::vector<KernelUse> uses;
+  for (const GraphPass& pass : graph.passes()) uses.push_back({pass.kernel, maskOf(pass.kernel)});
+  return uses;
 }
 
 PassRun Pipeline::runOf(const GraphPass& pass) {

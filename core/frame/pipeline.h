@@ -51,6 +51,8 @@ class Pipeline {
   // Values of a part's layer, one per pixel.
   std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 
+  // Kernels of the passes.
+  std::vector<KernelUse> kernels() { return kernelsOf(graph_); }
   void allocate();
   void prepare(StartupReport& report);
   // Zeroes every buffer.
@@ -90,6 +92,7 @@ class Pipeline {
   BufferId idOf(Buffer buffer) const;
   // Feature mask of the kernel that serves the scene.
   uint32_t maskOf(const std::string& kernel);
+  std::vector<KernelUse> kernelsOf(const FrameGraph& graph);
   PassRun runOf(const GraphPass& pass);
   // Parameters that kernels of a part had in the frame begun last.
   std::span<const std::byte> paramsOf(const PartInfo& part) const;

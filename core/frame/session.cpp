@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <optional>
 
 #include "core/backend/backend.h"
@@ -22,11 +23,12 @@ namespace restlab {
 namespace {
 
 // Kinds of closures follow.
-const std::array<const char*, 16> kFeatureNames = {
+const std::array<const char*, 17> kFeatureNames = {
     "area_lights",       "punctual_lights", "environment", "glossy",
     "transmission",      "volume",          "textures",    "normal_maps",
     "emissive_textures", "vertex_colors",   "alpha",       "instances",
-    "smooth_normals",    "multiscatter",    "ambient",     "scattering"};
+    "smooth_normals",    "multiscatter",    "ambient",     "scattering",
+    "light_tree"};
 
 static_assert(((1u << kFeatureNames.size()) - 1u) ==
               (rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES));
@@ -98,6 +100,9 @@ struct Session::Impl {
 
   // Creates backend, buffers and the first frame of a history, for the configuration.
   void open();
+  // Creates the pipeline, with the kernels that the backend has or can compile.
+  void openPipeline();
+  uint32_t wantedFeatures() const;
   // Opens with another configuration. If that throws, restarts the old configuration with a new
   // history.
   void reopen(const SessionConfig& changed);
@@ -137,6 +142,8 @@ void Session::Impl::open() {
                           config.height));
   }
   needed = scene->features(config.multiscatter);
+  if (config.lightChoice == kLightChoiceTree && scene->lampCount() > 1)
+    needed |= rl::RL_FEATURE_LIGHT_TREE;
   const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) scene->bindGgxAlbedo();
   beforeFrame.reset();
@@ -145,14 +152,11 @@ void Session::Impl::open() {
   aovBuffers.clear();
   isAovTraced = false;
   backend = makeBackend(config.backend, scene,
-                        {config.threads, config.device, config.rayTracing, config.validate});
-  const uint32_t wanted = config.specialise ? needed : generalFeatures(needed);
-  pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters, wanted,
-                   size_t(config.width) * config.height);
-  const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
-  backend->requireMemory(method.integrator->name, config.width, config.height,
-                         pipeline->bytesPerPixel(),
-                         sizeof(glm::vec3) + hostBytesPerPixel + filterBytes);
+                        {config.threads, config.device, config.rayTracing, config.validate,
+                         config.kernels == KernelChoice::exact});
+  openPipeline();
+  if (!config.renders) return;
+  if (!backend->compile(pipeline->kernels(), startup)) openPipeline();
   pipeline->allocate();
   pipeline->prepare(startup);
   radiance = Image(config.width, config.height);
@@ -174,9 +178,23 @@ void Session::Impl::open() {
   f.components = config.components;
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
+  f.lightTree = (needed & rl::RL_FEATURE_LIGHT_TREE) != 0 ? 1u : 0u;
   useParameters();
   lastFrame = f;
   lastScene = scene;
+}
+
+uint32_t Session::Impl::wantedFeatures() const {
+  return config.kernels == KernelChoice::general ? generalFeatures(needed) : needed;
+}
+
+void Session::Impl::openPipeline() {
+  pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters,
+                   wantedFeatures(), size_t(config.width) * config.height);
+  const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
+  backend->requireMemory(method.integrator->name, config.width, config.height,
+                         pipeline->bytesPerPixel(),
+                         sizeof(glm::vec3) + hostBytesPerPixel + filterBytes);
 }
 
 void Session::Impl::useParameters() {
@@ -425,10 +443,11 @@ Image Session::aov(const std::string& name) const {
     for (size_t i = 1; i < kAovNames.size(); ++i)
       m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
   }
-  const uint32_t mask =
-      m.backend->maskFor(kAovKernel, m.config.specialise ? m.needed : generalFeatures(m.needed));
-  const PassRun pass{kAovKernel, mask, m.aovBuffers, std::vector<std::byte>(4), 0};
   if (!m.isAovTraced) {
+    const uint32_t wanted = m.wantedFeatures();
+    m.backend->compile({{kAovKernel, m.backend->maskFor(kAovKernel, wanted)}}, m.startup);
+    const PassRun pass{kAovKernel, m.backend->maskFor(kAovKernel, wanted), m.aovBuffers,
+                       std::vector<std::byte>(4), 0};
     m.backend->prepare(pass, m.startup);
     m.backend->submit({pass}, m.lastFrame);
     m.backend->collect();
@@ -454,6 +473,14 @@ Image Session::aov(const std::string& name) const {
 
 uint32_t Session::featuresNeeded() const { return impl_->needed; }
 uint32_t Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
+size_t Session::codeBytes() const {
+  std::map<std::string, size_t> bytes;  // several passes may share a kernel
+  for (const KernelUse& use : impl_->pipeline->kernels())
+    bytes[use.kernel] = impl_->backend->codeBytes(use);
+  size_t sum = 0;
+  for (const auto& [kernel, own] : bytes) sum += own;
+  return sum;
+}
 double Session::averagedFrames() const {
   const auto& shownFrames = impl_->method.denoiser->shownFrames;
   const double radianceFrames = impl_->frame.radianceFrames;

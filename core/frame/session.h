@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/backend/kernel_choice.h"
 #include "core/frame/integrator.h"
 #include "core/frame/transport_settings.h"
 #include "core/image/image.h"
@@ -34,7 +35,9 @@ struct SessionConfig : TransportSettings {
   uint32_t camera = 0;
   uint32_t seed = 1;
   uint32_t components = rl::RL_COMPONENT_ALL;
-  bool specialise = true;   // false: the general kernel
+  KernelChoice kernels = defaultKernelChoice();  // on the CPU
+  // false: the session tells what it would use, compiles nothing and renders no frame.
+  bool renders = true;
   int threads = 0;          // 0: all cores
   ParameterMap parameters;  // method parameters, such as confidence_cap
 };
@@ -133,8 +136,10 @@ class Session {
   static const std::vector<std::string>& aovNames();  // without the layers of a method
 
   uint32_t featuresNeeded() const;
-  uint32_t featuresUsed() const;  // mask of the smallest compiled superset
-  size_t bytesPerPixel() const;   // sum over all buffers
+  uint32_t featuresUsed() const;  // by the kernels
+  // Machine code of the kernels that were compiled for the scene; 0 where all are built in.
+  size_t codeBytes() const;
+  size_t bytesPerPixel() const;                                   // sum over all buffers
   size_t bytesPerPixelOf(uint32_t width, uint32_t height) const;  // for an image of another size
   const SessionConfig& config() const;
   const StartupReport& startup() const;  // compiled kernels and compile times

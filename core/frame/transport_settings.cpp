@@ -27,6 +27,10 @@ const Schema<TransportSettings>& transportSchema() {
         "pixel filter: a box of one pixel, or its center", ""),
       P(&S::multiscatter, "multiscatter",
         "rough reflection keeps the light that meets several microfacets", "Kulla and Conty 2017"),
+      P(&S::lightChoice, "light_choice", Choices{"power", "tree"},
+        "lamps are chosen by power, or by a hierarchy that knows the receiver",
+        "Conty Estevez and Kulla 2018")
+          .sameMean(),
   };
   return schema;
 }

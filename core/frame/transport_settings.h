@@ -11,11 +11,16 @@
 
 namespace restlab {
 
+// How a receiver chooses among the lamps of a scene: by their power alone, or by a hierarchy that
+// knows the receiver.
+constexpr uint32_t kLightChoicePower = 0, kLightChoiceTree = 1;
+
 struct TransportSettings {
   uint32_t maxBounces = 8;  // scattering events
   bool russianRoulette = false;
   uint32_t pixelFilter = rl::RL_FILTER_BOX;
   bool multiscatter = false;
+  uint32_t lightChoice = kLightChoicePower;
 
   bool operator==(const TransportSettings&) const = default;
 };

@@ -46,7 +46,7 @@ RL_FN void materialTexture(RL_INOUT(Material) m, RL_IN(MaterialPoint) at) {
 // outside is not air; 0: the material's own.
 RL_FN Bsdf materialLobes(RL_IN(Material) m, bool isFront, float contrast) {
   Bsdf b = bsdfNone();
-  bool scatters = (m.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) == 0u;
+  if ((m.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return b;
   b.diffuse = m.baseColor;
   if (RL_HAS(RL_FEATURE_GLOSSY)) {
     float ior = m.ior;
@@ -58,12 +58,12 @@ RL_FN Bsdf materialLobes(RL_IN(Material) m, bool isFront, float contrast) {
     b.alpha = m.roughness * m.roughness;
     b.diffuse = m.baseColor * ((1.0f - m.metallic) * (1.0f - m.transmission));
     bool isDelta = b.alpha < RL_ALPHA_FLOOR;
-    if (scatters && b.f90 > 0.0f && !rlIsBlack(b.f0)) {
+    if (b.f90 > 0.0f && !rlIsBlack(b.f0)) {
       b.lobes = isDelta ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
     }
     // An index of 0 stands for full reflection: there is no direction to refract to.
     bool canTransmit = m.transmission > 0.0f && m.metallic < 1.0f && ior > 0.0f;
-    if (RL_HAS(RL_FEATURE_TRANSMISSION) && scatters && canTransmit) {
+    if (RL_HAS(RL_FEATURE_TRANSMISSION) && canTransmit) {
       b.transmission = m.baseColor * ((1.0f - m.metallic) * m.transmission);
       bool isThin = (m.flags & RL_MATERIAL_THIN) != 0u;
       // No contrast of indices: nothing is reflected, bent or blurred, however rough the surface.
@@ -74,6 +74,6 @@ RL_FN Bsdf materialLobes(RL_IN(Material) m, bool isFront, float contrast) {
     }
     if (isDelta && (b.lobes & RL_LOBE_ANY_DELTA) != 0u) RL_HEALTH(RL_HEALTH_DELTA_LOBES);
   }
-  if (scatters && !rlIsBlack(b.diffuse)) b.lobes |= RL_LOBE_DIFFUSE;
+  if (!rlIsBlack(b.diffuse)) b.lobes |= RL_LOBE_DIFFUSE;
   return b;
 }

@@ -32,10 +32,12 @@ RL_FN bool pathIsMirror(RL_IN(Surface) s) {
 }
 
 // Returns whether the light samples of a vertex are not resampled: those behind a surface that lets
-// light through lie in a body that a replay does not know.
+// light through lie in a body that a replay does not know. The scene decides, not the kernel: one
+// with more features than the scene needs takes the same samples.
 RL_FN bool pathIsLightUnresampled(RL_IN(Surface) s) {
 #ifdef RL_PATH_REPLAYS
-  return RL_HAS(RL_FEATURE_VOLUME) && (s.bsdf.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u;
+  return RL_HAS(RL_FEATURE_VOLUME) && gScene.hasMedia != 0u &&
+         (s.bsdf.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u;
 #else
   return false;
 #endif

@@ -112,12 +112,14 @@ RL_FN vec3 pathRadianceTowards(RL_IN(PathSample) p, RL_IN(vec3) dirFromX2) {
 }
 
 // MIS weight of a light sample at a smooth x1.
-RL_FN float pathSmoothWeight(RL_IN(PathSample) p, RL_IN(LightConnection) c, float pdfBsdf) {
+RL_FN float pathSmoothWeight(RL_IN(PathSample) p, RL_IN(Surface) x1, RL_IN(LightConnection) c,
+                             float pdfBsdf) {
   if (c.isDelta) return 1.0f;
   if (pathLightKind(p) == RL_LIGHT_ENVIRONMENT)
     return lightMisWeight(lightPdfOfEnvironment(c.dirW), pdfBsdf);
   Light light = recordLight(recordInstance(p.id.instance).firstLight + p.id.primitive);
-  return lightMisWeight(light.pmf * light.areaInverse * rlSafeDivide(1.0f, c.geometry), pdfBsdf);
+  float perArea = lightProbability(light, lightReceiverAt(x1)) * light.areaInverse;
+  return lightMisWeight(perArea * rlSafeDivide(1.0f, c.geometry), pdfBsdf);
 }
 
 // Segment from x1 (position, geometric normal, error of the position) to the end of a path, as a
@@ -144,7 +146,7 @@ RL_FN Shifted pathReconnect(RL_IN(PathSample) p, RL_IN(LightSample) end, RL_IN(S
     vec3 f = bsdfEvalAndPdf(x1.bsdf, x1.nGeoW, x1.nShadeW, x1.wo, c.dirW, pdfBsdf);
     s.F = f * c.emitted * c.geometry;
 #ifdef RL_PATH_REPLAYS
-    if (pathKind(p) == RL_PATH_WEIGHED) s.F *= pathSmoothWeight(p, c, pdfBsdf);
+    if (pathKind(p) == RL_PATH_WEIGHED) s.F *= pathSmoothWeight(p, x1, c, pdfBsdf);
 #endif
     return s;
   }

@@ -394,6 +394,12 @@ RL_FN bool bsdfIsMirror(RL_IN(Bsdf) b, float maxAlpha) {
   return !bsdfIsReusable(b, maxAlpha);
 }
 
+// Returns whether light from behind the surface reaches the viewer.
+RL_FN bool bsdfIsTwoSided(RL_IN(Bsdf) b) {
+  return RL_HAS(RL_FEATURE_TRANSMISSION) &&
+         (b.lobes & (RL_LOBE_ANY_TRANSMISSION | RL_LOBE_EXIT)) != 0u;
+}
+
 // Share of the light that is reflected, roughly: diffuse and specular at normal incidence.
 RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
   vec3 reflectance = b.diffuse;

@@ -3,6 +3,7 @@
 //   lightSample    draws a point of a light
 //   lightPoint     a point of a light that is named
 //   lightConnect   evaluates a drawn light for a receiver
+//   lightReceiverAt  where light arrives: lamps may be chosen by it (core/shading/light/tree.glsl)
 //   lightPdf...    density with which lightSample would have drawn the light that a ray has found
 
 // Selects a light by the alias method: 32 bits for the column and 32 for the threshold.
@@ -64,12 +65,30 @@ RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, 
   return s;
 }
 
-// Requires lightExists().
-RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng) {
+// Where light arrives that is scattered at a surface.
+RL_FN LightReceiver lightReceiverAt(RL_IN(Surface) s) {
+  LightReceiver receiver;
+  receiver.posW = s.posW;
+  receiver.normalW = s.nGeoW;
+  receiver.isTwoSided = bsdfIsTwoSided(s.bsdf) ? 1u : 0u;
+  return receiver;
+}
+
+// Requires lightExists(). A density of 0: the receiver drew a lamp that sends it no light.
+RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng, RL_IN(LightReceiver) receiver) {
   uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
   uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
   uint record = lightSelect(rng);
   Light light = recordLight(record);
+  if (RL_HAS(RL_FEATURE_LIGHT_TREE) && gFrame.lightTree != 0u && lightIsLamp(light.kind)) {
+    float probability;
+    uint lamp = lightTreeDraw(rng, receiver, probability);
+    if (lamp != RL_INVALID) {
+      record = lamp;
+      light = recordLight(lamp);
+    }
+    light.pmf = gScene.lampShare * probability;
+  }
   vec2 bary = vec2(rngUnit(uBits), rngUnit(vBits));
   vec3 dirW = vec3(0.0f, 0.0f, 0.0f);
   float density = 1.0f;
@@ -147,10 +166,13 @@ RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(v
 }
 
 // Solid-angle density with which lightSample finds the emissive triangle that a path ray has hit.
-RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, float distance) {
+RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(LightReceiver) receiver, RL_IN(vec3) nGeoW,
+                          RL_IN(vec3) dirW, float distance) {
   Light light = recordLight(lightIndex);
   float cosLight = abs(dot(nGeoW, dirW));
-  return cosLight > 0.0f ? light.pmf * light.areaInverse * distance * distance / cosLight : 0.0f;
+  if (!(cosLight > 0.0f)) return 0.0f;
+  float perArea = lightProbability(light, receiver) * light.areaInverse;
+  return perArea * distance * distance / cosLight;
 }
 
 // Solid-angle density with which lightSample finds the environment in a direction.

@@ -10,6 +10,19 @@
 
 RL_NAMESPACE_BEGIN
 
+// How a receiver chooses among the parts of a node in the hierarchy of lamps.
+struct LightTurn {
+  uvec3 bounds;  // of 32 random bits: those below x take part 0, below y part 1, below z part 2
+  uint last;     // the part that all others take; RL_INVALID: no part can send light
+};
+
+// Where light arrives.
+struct LightReceiver {
+  vec3 posW;
+  uint isTwoSided;  // 1: light from behind the surface counts, too
+  vec3 normalW;     // unit
+};
+
 struct LightSample {
   vec3 point;   // world position; a unit direction to the light where kind is directional or
                 // environment

@@ -63,7 +63,7 @@ RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen, RL_OUT(flo
   eta = mediaOfRank(rank).w / mediaOfRank(walk.media.x).w;
   // The share that passes outwards is that inwards over eta^2; the rest is sent back inside.
   float inner = 1.0f - diffusionPasses(eta) / (eta * eta);
-  float mu = clamp(abs(dot(walk.ray.dir, walk.normalW)), 1.0e-3f, 1.0f);
+  float mu = clamp(abs(dot(walk.ray.dir, walk.last.normalW)), 1.0e-3f, 1.0f);
   vec2 ofX = diffusionOf(w.x, mu, inner);
   vec2 ofY = diffusionOf(w.y, mu, inner);
   vec2 ofZ = diffusionOf(w.z, mu, inner);
@@ -89,17 +89,17 @@ RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen, RL_OUT(flo
 
   vec3 tangent;
   vec3 bitangent;
-  frameFromNormal(walk.normalW, tangent, bitangent);
-  vec3 axis = walk.normalW;
+  frameFromNormal(walk.last.normalW, tangent, bitangent);
+  vec3 axis = walk.last.normalW;
   vec3 side = tangent;
   vec3 other = bitangent;
   if (uAxis >= 0.5f) {
     axis = uAxis < 0.75f ? tangent : bitangent;
-    side = uAxis < 0.75f ? bitangent : walk.normalW;
-    other = uAxis < 0.75f ? walk.normalW : tangent;
+    side = uAxis < 0.75f ? bitangent : walk.last.normalW;
+    other = uAxis < 0.75f ? walk.last.normalW : tangent;
   }
   float reach = RL_DIFFUSION_REACH * rlMax3(scale);
-  vec3 enteredW = walk.posW;
+  vec3 enteredW = walk.last.posW;
   Ray probe = walk.ray;
   probe.dir = axis;
   probe.origin = enteredW + (side * cs.x + other * cs.y) * r - axis * reach;
@@ -133,8 +133,8 @@ RL_FN vec3 diffusionFindExit(RL_INOUT(Walk) walk, RL_OUT(Hit) chosen, RL_OUT(flo
   id.bary = chosen.bary;
   SurfacePoint exitPoint = surfacePointAt(id);
   vec3 d = exitPoint.posW - enteredW;
-  vec3 along = vec3(dot(d, walk.normalW), dot(d, tangent), dot(d, bitangent));
-  vec3 cosine = vec3(abs(dot(exitPoint.normalW, walk.normalW)),
+  vec3 along = vec3(dot(d, walk.last.normalW), dot(d, tangent), dot(d, bitangent));
+  vec3 cosine = vec3(abs(dot(exitPoint.normalW, walk.last.normalW)),
                      abs(dot(exitPoint.normalW, tangent)), abs(dot(exitPoint.normalW, bitangent)));
   float d2 = dot(d, d);
   float least = 1.0e-3f * min(scale.x, min(scale.y, scale.z));

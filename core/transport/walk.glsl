@@ -40,10 +40,11 @@ RL_FN bool walkWants(uint bounces) {
 RL_FN bool walkDrawLights(RL_INOUT(RL_WALK_STATE) state, RL_IN(Walk) walk, RL_IN(Surface) s,
                           uint candidates, RL_INOUT(Ray) shadowRay) {
   bool hasShadowRay = false;
+  LightReceiver receiver = lightReceiverAt(s);
   for (uint i = 0u; i < candidates; i = i + 1u) {
     Rng rng = walk.rng;
     if (i > 0u) rng.vertex = RL_VERTEX_CANDIDATES + i;
-    LightSample light = lightSample(rng);
+    LightSample light = lightSample(rng, receiver);
     LightConnection c = lightConnect(light, s.posW);
     if (!(light.pdf > 0.0f) || rlIsBlack(c.emitted)) continue;
     if (onLightSample(state, walk, rng, s, light, c)) {
@@ -84,10 +85,7 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
   walk.isScattered = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
-  if (RL_HAS(RL_FEATURE_SCATTERING)) {
-    walk.posW = s.posW;
-    walk.normalW = s.nGeoW;
-  }
+  if (RL_HAS(RL_FEATURE_SCATTERING | RL_FEATURE_LIGHT_TREE)) walk.last = lightReceiverAt(s);
 }
 
 // Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
@@ -155,8 +153,9 @@ RL_FN Walk walkBegin(RL_IN(Rng) rng, uint film, RL_IN(Ray) ray, uint bounces) {
   walk.isScattered = 0u;
   walk.stretches = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
-  walk.posW = ray.origin;
-  walk.normalW = vec3(0.0f, 0.0f, 1.0f);
+  walk.last.posW = ray.origin;
+  walk.last.isTwoSided = 1u;
+  walk.last.normalW = vec3(0.0f, 0.0f, 1.0f);
   walk.isAlive = 1u;
   return walk;
 }
@@ -241,7 +240,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
-        pdfLight = lightPdfOfHit(s.light, s.nGeoW, walk.ray.dir, hit.t);
+        pdfLight = lightPdfOfHit(s.light, walk.last, s.nGeoW, walk.ray.dir, hit.t);
       onEmission(state, walk, s, hit, pdfLight);
     } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) && !isExit &&
                walk.bounces < gFrame.maxBounces && walkWants(walk.bounces + 1u)) {

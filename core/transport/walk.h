@@ -24,9 +24,8 @@ struct Walk {
   uint isScattered;    // 1: the ray travels, since the last surface, in a medium that scatters
   uint stretches;      // number of stretches in such media so far; collisions are no `bounces`
   vec3 ofMedium;       // factors of such a medium since the last surface
-  vec3 posW;           // of the last surface, as the next; only with RL_FEATURE_SCATTERING
-  vec3 normalW;
-  uint isAlive;  // 0: absorbed, or ended by Russian roulette
+  LightReceiver last;  // the last surface; only with RL_FEATURE_SCATTERING or _LIGHT_TREE
+  uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
 
 // Stretches in media that scatter, after which a path is ended and counted (RL_HEALTH_LONG_WALKS).

@@ -42,7 +42,7 @@ std::string integratorName(const SessionConfig& config) {
 std::string parametersName(const SessionConfig& config) {
   std::string name;
   if (config.backend != "cpu") name += ", on " + config.backend;
-  if (!config.specialise) name += ", general kernels";
+  if (config.kernels == KernelChoice::general) name += ", general kernels";
   for (const auto& [key, value] : config.parameters)
     name += fmt::format(", {} {}", key, parameterText(value));
   if (config.components != rl::RL_COMPONENT_ALL)

@@ -81,6 +81,7 @@ Json supportJson(const PreparedScene& prepared, bool multiscatter) {
     config.multiscatter = multiscatter;
     config.width = config.height = 16;  // sizes below are per pixel
     config.threads = 1;
+    config.renders = false;
     const Session session(prepared.scene, config);
     Json buffers = Json::object();
     for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;

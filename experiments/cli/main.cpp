@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/backend/kernel_choice.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/kernel_progress.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
 
@@ -120,6 +122,7 @@ int failStdout() {
 
 int main(int argc, char** argv) {
   installInterruptHandler();
+  logCompiledKernels();
   setArguments(std::vector<std::string>(argv, argv + argc));
   CLI::App app("restlab measures ReSTIR-style path tracing against converged references",
                "restlab");
@@ -135,6 +138,7 @@ int main(int argc, char** argv) {
                              {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
+    checkDefaultKernelChoice();
     const int code = runVerb(app, verbs, std::vector<std::string>(argv, argv + argc));
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : failStdout();
   } catch (const Error& error) {

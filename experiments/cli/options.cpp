@@ -229,7 +229,7 @@ void addMethodOptions(CLI::App& verb, MethodOptions& options) {
       ->take_all()
       ->allow_extra_args(false);
   addTransport(verb, options.transport, [](const ParameterInfo& info) { return info.sameMean; });
-  verb.add_flag("--general", options.general, "the general kernels instead of specialised ones");
+  verb.add_option("--kernels", options.kernels, "of the CPU: exact (default), built-in or general");
 }
 
 void resolveResolution(SceneOptions& options) {
@@ -257,7 +257,8 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
     logWarning(fmt::format("{}{}{} has no effect: {}", method.prefix, name == "mode" ? "" : "set ",
                            name, why));
   }
-  config.specialise = !method.general;
+  if (!method.kernels.empty())
+    config.kernels = parseKernelChoice(method.kernels, method.prefix + "kernels");
   config.width = scene.width;
   config.height = scene.height;
   config.seed = scene.seed;

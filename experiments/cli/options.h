@@ -39,7 +39,7 @@ struct MethodOptions {
   std::vector<std::string> parameters;  // KEY=VALUE
   std::string prefix = "--";            // of its options, for error messages
   TransportTexts transport;             // those that leave the expected image as it is
-  bool general = false;
+  std::string kernels;                  // "": RESTLAB_KERNELS, or exact
 };
 
 // Accepts a number in lo..hi, optionally with a unit: s, m or h for "seconds", deg for "degrees".

@@ -209,8 +209,7 @@ void render(RenderOptions options) {
     requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));
   Session session(prepared.scene, config, hostBytesPerPixel(options, aovs));
   logStartup(session);
-  const size_t kernels = session.startup().kernels.size();
-  const size_t notices = session.startup().notices.size();
+  const StartupReport before = session.startup();
   logDetail(fmt::format("{}: {} triangles, loaded in {:.0f} ms; {} at {}x{}",
                         prepared.scene->source().name, prepared.scene->instancedTriangleCount(),
                         prepared.loadTimeMs, config.integrator, config.width, config.height));
@@ -219,7 +218,7 @@ void render(RenderOptions options) {
   std::optional<LayeredImage> file;
   if (isWritten) file = layers(session, prepared, rendered, aovs);
   StartupLog further;  // kernels of the layers
-  further.add(session, kernels, notices);
+  further.add(session, before);
   further.print();
   if (file) writeFiles(options, *file, aovs, findMethod(config));
   if (file) saySharesOfNames(findMethod(config), *file);

@@ -111,7 +111,7 @@ ViewStart startOfMethods(ViewOptions& options) {
   resolveResolution(options.scene);
   MethodOptions& second = options.second;
   second.transport = options.first.transport;
-  second.general = options.first.general;
+  second.kernels = options.first.kernels;
   second.backend = options.first.backend;
   if (!options.secondBackend.empty() && options.secondBackend != second.backend.backend) {
     second.backend = {};

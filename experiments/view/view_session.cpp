@@ -162,7 +162,8 @@ std::string methodToml(const PaneSettings& pane, const std::string& name) {
   }
   text +=
       fmt::format("denoiser = {}\nbackend = {}\n", quoted(config.denoiser), quoted(config.backend));
-  if (!config.specialise) text += "general = true\n";
+  if (config.kernels != KernelChoice::exact)
+    text += fmt::format("kernels = {}\n", quoted(kernelChoiceName(config.kernels)));
   for (const auto& [key, value] : config.parameters)
     text += fmt::format("{} = {}\n", key, valueText(value));
   return text;

@@ -315,7 +315,7 @@ SessionConfig withNames(SessionConfig config) {
 bool isSameMethod(const SessionConfig& a, const SessionConfig& b) {
   const auto of = [](const SessionConfig& c) {
     return std::tie(c.integrator, c.mode, c.cache, c.backend, c.device, c.rayTracing, c.validate,
-                    c.denoiser, c.camera, c.components, c.specialise, c.threads);
+                    c.denoiser, c.camera, c.components, c.kernels, c.threads);
   };
   return of(a) == of(b) && static_cast<const TransportSettings&>(a) == b;
 }

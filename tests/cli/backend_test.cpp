@@ -39,22 +39,6 @@ name = "gi"
 integrator = "restir_gi"
 )";
 
-// RAII: sets an environment variable that the program inherits.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old;
-    setenv(name, value, 1);
-  }
-  ~Variable() { old_.empty() ? unsetenv(name_) : setenv(name_, old_.c_str(), 1); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::string old_;
-};
-
 class BackendTest : public ProgramTest {
   // The software driver (Mesa 22.3) leaks 128 bytes, with no frame that names it: in a build with
   // leak checks every program would end with an error. Other tests check for our own leaks.

@@ -108,8 +108,9 @@ TEST_F(BiasTest, TheReplayIsTheFrameOfTheRun) {
   for (const std::string& settings :
        {std::string("cornell-box --integrator restir_gi --set mis=defensive --component indirect "
                     "--max-bounces 12 --filter center --rr --seed 7"),
-        std::string("quad-light --camera low --environment sky.exr --environment-rotation 30 "
-                    "--environment-scale 0.5 --integrator path --multiscatter --general")}) {
+        std::string(
+            "quad-light --camera low --environment sky.exr --environment-rotation 30 "
+            "--environment-scale 0.5 --integrator path --multiscatter --kernels general")}) {
     const ProgramResult result =
         run("bias " + settings +
             " --resolution 12x8 --runs 32 --warmup 2 --frames 1 --margin 50 -o out --json -q");

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -60,6 +61,22 @@ class ProgramTest : public ::testing::Test {
  private:
   ProgramResult start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
                       const Circumstances& circumstances) const;
+};
+
+// RAII: sets an environment variable that the program inherits.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    setenv(name, value, 1);
+  }
+  ~Variable() { old_.empty() ? unsetenv(name_) : setenv(name_, old_.c_str(), 1); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::string old_;
 };
 
 // Expects an exit code and one error line with all fragments.

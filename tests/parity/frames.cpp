@@ -177,7 +177,7 @@ SessionConfig configOf(const Combination& what, const Machine& where, uint32_t w
   if (what.endsPaths) config.parameters["secondary"] = std::string("cache");
   config.backend = where.backend;
   config.rayTracing = where.rayTracing;
-  config.specialise = where.specialise;
+  config.kernels = where.kernels;
   config.width = width;
   config.height = height;
   config.seed = seed;

@@ -36,12 +36,12 @@ struct Machine {
   const char* name;
   const char* backend;
   const char* rayTracing;
-  bool specialise;
+  KernelChoice kernels;
 };
-constexpr Machine kVulkan{"vulkan", "vulkan", "bvh", false};
-constexpr Machine kVulkanSpecialised{"vulkan specialised", "vulkan", "bvh", true};
-constexpr Machine kCpuBvh{"cpu bvh", "cpu", "bvh", false};
-constexpr Machine kCpuEmbree{"cpu embree", "cpu", "embree", false};
+constexpr Machine kVulkan{"vulkan", "vulkan", "bvh", KernelChoice::general};
+constexpr Machine kVulkanSpecialised{"vulkan specialised", "vulkan", "bvh", KernelChoice::exact};
+constexpr Machine kCpuBvh{"cpu bvh", "cpu", "bvh", KernelChoice::general};
+constexpr Machine kCpuEmbree{"cpu embree", "cpu", "embree", KernelChoice::general};
 
 SessionConfig configOf(const Combination& what, const Machine& where, uint32_t width,
                        uint32_t height, uint32_t seed);

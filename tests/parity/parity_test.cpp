@@ -199,9 +199,10 @@ INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases),
                          [](const auto& test) { return test.param.name; });
 
 TEST(EverythingScene, NeedsEveryFeature) {
-  // Multiple-scattering compensation is an option of the render, not a need of a scene.
+  // Options of the render, not needs of a scene: compensated multiple scattering, choice of lamps.
   EXPECT_EQ(CompiledScene::build(makeEverythingScene())->features(),
-            rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_MULTISCATTER));
+            rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_MULTISCATTER |
+                                   rl::RL_FEATURE_LIGHT_TREE));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_F(JobTest, TheKeyHoldsWhatTheNumbersDependOn) {
   differs("threads: times depend on them");
   suite_.methods[0].session.parameters["confidence_cap"] = 3.0;
   differs("parameters");
-  suite_.methods[0].session.specialise = false;
+  suite_.methods[0].session.kernels = KernelChoice::general;
   differs("kernels");
   suite_.methods[0].name = "other";
   differs("name");

@@ -96,10 +96,11 @@ TEST_F(SweepTest, MethodKeysMakeMethods) {
             (Names{"path", "gi, mode=biased", "gi, mode=unbiased", "restir_gi (biased)",
                    "restir_gi (unbiased)"}))
       << "path has one mode: it is not meant";
-  EXPECT_EQ(names(load(kBase, {}, {"backend=cpu,vulkan", "method.gi.general=true,false"})[0]),
-            (Names{"path @cpu", "path @vulkan", "gi, general=true @cpu", "gi, general=false @cpu",
-                   "gi, general=true @vulkan", "gi, general=false @vulkan",
-                   "restir_gi (unbiased) @cpu", "restir_gi (unbiased) @vulkan"}));
+  EXPECT_EQ(
+      names(load(kBase, {}, {"backend=cpu,vulkan", "method.gi.kernels=general,exact"})[0]),
+      (Names{"path @cpu", "path @vulkan", "gi, kernels=general @cpu", "gi, kernels=exact @cpu",
+             "gi, kernels=general @vulkan", "gi, kernels=exact @vulkan",
+             "restir_gi (unbiased) @cpu", "restir_gi (unbiased) @vulkan"}));
   EXPECT_EQ(load(kBase, {"sweep.max_bounces=[1,2]"}).size(), 2u);
 }
 

@@ -163,7 +163,7 @@ TEST(Alpha, EmittersGiveWhatRaysFind) {
   double byLight = 0.0, byRays = 0.0, squares = 0.0;
   for (uint32_t i = 0; i < n; ++i) {
     const rl::Rng rng = d->rngInit(4, i, 0);
-    const rl::LightSample s = d->lightSample(rng);
+    const rl::LightSample s = d->lightSample(rng, anyReceiver());
     const rl::LightConnection c = d->lightConnect(s, at);
     byLight += double(c.emitted.x) * c.geometry * std::max(-c.dirW.z, 0.0f) / s.pdf / n;
     rl::Ray ray;

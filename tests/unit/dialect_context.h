@@ -38,6 +38,11 @@ struct Ctx {
 
 namespace restlab::unit {
 
+// A receiver for draws that do not depend on one: light arrives from everywhere.
+inline rl::LightReceiver anyReceiver() {
+  return {glm::vec3(0.0f), 1u, glm::vec3(0.0f, 0.0f, 1.0f)};
+}
+
 // A kernel context with the storage that it refers to. Without a compiled scene, tests fill `scene`
 // by hand and must trace no rays.
 template <uint32_t FEATURES = rl::RL_FEATURE_ALL>

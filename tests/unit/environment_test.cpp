@@ -270,7 +270,7 @@ TEST(Environment, LightPdfIncludesTheSelection) {
   int seen = 0;
   for (uint32_t i = 0; i < 20'000; ++i) {
     const rl::Rng rng = d->rngInit(3, i, 0);
-    const rl::LightSample s = d->lightSample(rng);
+    const rl::LightSample s = d->lightSample(rng, anyReceiver());
     if (s.kind != rl::RL_LIGHT_ENVIRONMENT) continue;
     ++seen;
     const rl::LightConnection c = d->lightConnect(s, glm::vec3(0.3f));

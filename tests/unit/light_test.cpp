@@ -196,7 +196,7 @@ TEST(LightDraw, TriangleIsUniformOverItsArea) {
   std::vector<double> probabilities(counts.size());
   constexpr uint32_t samples = 1'000'000;
   for (uint32_t i = 0; i < samples; ++i) {
-    const rl::LightSample s = d->lightSample(rngOf(d, i));
+    const rl::LightSample s = d->lightSample(rngOf(d, i), anyReceiver());
     ASSERT_NEAR(s.pdf * area, 1.0, 1e-4);
     // Compute barycentric coordinates by projection.
     const glm::dvec3 v = glm::dvec3(s.point) - a;
@@ -242,7 +242,7 @@ TEST(LightConnect, ConvertsAreaToSolidAngle) {
     Inputs inputs(3);
     int front = 0, back = 0;
     for (uint32_t i = 0; i < 20'000; ++i) {
-      const rl::LightSample s = d->lightSample(rngOf(d, i));
+      const rl::LightSample s = d->lightSample(rngOf(d, i), anyReceiver());
       const glm::dvec3 at =
           a + 3.0 * double(inputs.uniform(0.2f, 1.0f)) * glm::dvec3(inputs.direction());
       const rl::LightConnection c = d->lightConnect(s, glm::vec3(at));
@@ -278,7 +278,7 @@ void expectRaysAgree(OneLamp& lamp) {
   Inputs inputs(4);
   int compared = 0, dark = 0;
   for (uint32_t i = 0; i < 20'000; ++i) {
-    const rl::LightSample s = d->lightSample(rngOf(d, i));
+    const rl::LightSample s = d->lightSample(rngOf(d, i), anyReceiver());
     const glm::vec3 at = s.point + inputs.uniform(0.2f, 3.0f) * inputs.direction();
     const rl::LightConnection c = d->lightConnect(s, at);
     rl::Ray ray;
@@ -298,7 +298,7 @@ void expectRaysAgree(OneLamp& lamp) {
       continue;
     }
     ++compared;
-    const float pdf = d->lightPdfOfHit(surface.light, surface.nGeoW, ray.dir, hit.t);
+    const float pdf = d->lightPdfOfHit(surface.light, anyReceiver(), surface.nGeoW, ray.dir, hit.t);
     ASSERT_NEAR(pdf / c.pdfSolidAngle, 1.0f, 2e-3f);
   }
   EXPECT_GT(compared, 5000);
@@ -355,7 +355,7 @@ TEST(Punctual, SpotFalloff) {
   spot.outerConeAngle = 0.6f;
   builder.addLight(spot);
   Dialect<> d(CompiledScene::build(builder.finish()));
-  const rl::LightSample s = d->lightSample(rngOf(d, 0));
+  const rl::LightSample s = d->lightSample(rngOf(d, 0), anyReceiver());
   ASSERT_EQ(s.kind, rl::RL_LIGHT_SPOT);
   const glm::dvec3 position = spot.posW - d.compiledScene->origin();
   for (double angle = 0.0; angle < 1.5; angle += 0.01) {

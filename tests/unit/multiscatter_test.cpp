@@ -209,12 +209,12 @@ TEST(Multiscatter, OffIsTheSameBits) {
 }
 
 Image rendered(const std::shared_ptr<const CompiledScene>& scene, bool multiscatter,
-               uint32_t expectedBit, bool specialise = true) {
+               uint32_t expectedBit, KernelChoice kernels = KernelChoice::builtIn) {
   SessionConfig config;
   config.width = config.height = 24;
   config.threads = 1;
   config.multiscatter = multiscatter;
-  config.specialise = specialise;
+  config.kernels = kernels;
   Session session(scene, config);
   EXPECT_EQ(session.featuresNeeded() & rl::RL_FEATURE_MULTISCATTER, expectedBit);
   if (expectedBit != 0u) {
@@ -234,9 +234,9 @@ TEST(Multiscatter, SessionsNeedItWhereItChangesSomething) {
   const auto gallery = CompiledScene::build(makeBuiltinScene("glossy-gallery"));
   const Image off = rendered(gallery, false, 0u), on = rendered(gallery, true, bit);
   EXPECT_NE(off.pixels, on.pixels);
-  EXPECT_EQ(off.pixels, rendered(gallery, false, 0u, false).pixels)
+  EXPECT_EQ(off.pixels, rendered(gallery, false, 0u, KernelChoice::general).pixels)
       << "off in the general kernel, after another session of the scene had it on";
-  EXPECT_EQ(on.pixels, rendered(gallery, true, bit, false).pixels);
+  EXPECT_EQ(on.pixels, rendered(gallery, true, bit, KernelChoice::general).pixels);
 }
 
 }  // namespace

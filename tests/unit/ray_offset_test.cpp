@@ -258,7 +258,7 @@ TEST(RayOffset, LampsOfInstancesAreSeen) {
     const auto receiver = glm::vec3(-d.compiledScene->origin());
     uint64_t faces = 0, blocked = 0;
     for (uint32_t i = 0; i < 20'000; ++i) {
-      const rl::LightSample s = d->lightSample(d->rngInit(5, i, 0));
+      const rl::LightSample s = d->lightSample(d->rngInit(5, i, 0), anyReceiver());
       const rl::LightConnection c = d->lightConnect(s, receiver);
       if (c.geometry > 0.0f) ++faces;
       const rl::Ray ray = d->lightShadowRay(s, c, receiver, glm::vec3(0, 1, 0), 0.0f);

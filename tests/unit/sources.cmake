@@ -13,8 +13,11 @@ list(APPEND RL_UNIT_TESTS
   direct_sample_test.cpp
   environment_test.cpp
   feature_mask_test.cpp
+  kernel_units_test.cpp
+  own_kernels_test.cpp
   ggx_reference.cpp
   light_test.cpp
+  light_tree_test.cpp
   math_test.cpp
   multiscatter_test.cpp
   pack_test.cpp

@@ -34,7 +34,10 @@ const std::array<Entry, 11> kScenes{{
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
      "a dark room lit through a door ajar by a lamp next door: hard indirect light"},
-    {"many-lights", fixed<builtin::makeManyLights>,
+    {"many-lights",
+     [](const BuiltinName& name) {
+       return builtin::makeManyLights(int(wholeNumber(name, "lamps")));
+     },
      "a hall under 5,000 lamps (10,000 emissive triangles) over 3 decades of power"},
     {"glossy-gallery", fixed<builtin::makeGlossyGallery>,
      "metals and plastics of roughness 0.05 to 0.8 under five area lights"},
@@ -89,6 +92,7 @@ struct OwnParameter {
 
 const std::vector<OwnParameter>& ownParameters() {
   static const std::vector<OwnParameter> all = {
+      {"many-lights", {"lamps", 5000.0, 1.0, 5e5, "about so many, of the same power together"}},
       {"furnace", {"albedo", 0.5, 0.0, 1.0, "reflectance of every surface"}},
       {"furnace", {"height", 1.0, 1e-5, 1.0, "factor on all heights: a room as flat as a gap"}},
       {"furnace", {"gap", 0.8, 0.0, 1.9, "between the block and the floor, m"}},

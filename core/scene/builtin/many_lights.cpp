@@ -1,6 +1,8 @@
-// A hall of 24 x 9 x 36 m under 100 garlands of 50 lamps: 5,000 small squares, 10,000 emissive
-// triangles. A lamp's power is drawn log-uniformly over three decades, so uniform selection wastes
-// most samples: the strongest tenth gives half the light. Lambert throughout.
+// A hall of 24 x 9 x 36 m under garlands of lamps: 5,000 small squares, 10,000 emissive triangles,
+// unless another number is asked for; together they have the same power. A lamp's power is drawn
+// log-uniformly over three decades, so uniform selection wastes most samples: the strongest tenth
+// gives half the light. Lambert throughout.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -13,7 +15,7 @@
 namespace restlab::builtin {
 namespace {
 
-constexpr int kGarlands = 100, kLampsPerGarland = 50;
+constexpr int kMostGarlands = 100, kLampsPerGarland = 50;
 // A lamp of rank t in [0, 1) has side 0.025 x 10^(0.85 t) metres and radiance 2 x 10^(1.4 t) W
 // sr^-1 m^-2: its power spans 3.1 decades, half of them by size, so that the visible lamps do not
 // dominate the image. Radiance comes in steps, one material each.
@@ -38,10 +40,16 @@ MeshGeometry lampSquare(SceneRandom& random, const glm::dvec3& center, double si
 }
 
 // Garlands hang across the hall, each from a hook on the left to one on the right.
-void addLamps(SceneBuilder& scene) {
+// Fewer lamps hang on fewer garlands, more lamps closer together.
+void addLamps(SceneBuilder& scene, int lamps) {
+  const int garlands = std::clamp(lamps / kLampsPerGarland, 1, kMostGarlands);
+  const int perGarland = lamps / garlands;
+  const double sideFactor =
+      std::sqrt(double(kMostGarlands * kLampsPerGarland) / double(garlands * perGarland));
+
   std::array<MeshGeometry, size_t(kRadianceSteps) * kTints.size()> byMaterial;
   SceneRandom random(2024);
-  for (int g = 0; g < kGarlands; ++g) {
+  for (int g = 0; g < garlands; ++g) {
     // One draw per statement: C++ leaves the evaluation order of arguments to the compiler.
     const double heightLeft = random.uniform(5.0, 8.6);
     const double heightRight = random.uniform(5.0, 8.6);
@@ -50,14 +58,14 @@ void addLamps(SceneBuilder& scene) {
     const glm::dvec3 left(-kHallHalfWidth + 0.3, heightLeft, z);
     const glm::dvec3 right(kHallHalfWidth - 0.3, heightRight, z + slant);
     const double sag = random.uniform(0.4, 2.2);
-    for (int i = 0; i < kLampsPerGarland; ++i) {
-      const double t = (i + random.uniform(0.2, 0.8)) / kLampsPerGarland;
+    for (int i = 0; i < perGarland; ++i) {
+      const double t = (i + random.uniform(0.2, 0.8)) / perGarland;
       glm::dvec3 center = glm::mix(left, right, t);
       center.y -= 4.0 * sag * t * (1.0 - t);
       const double rank = random.uniform();
       const size_t step = size_t(rank * kRadianceSteps);
       const size_t tint = size_t(random.uniform(0.0, double(kTints.size())));
-      const double side = kSmallestSide * std::pow(10.0, kSideDecades * rank);
+      const double side = sideFactor * kSmallestSide * std::pow(10.0, kSideDecades * rank);
       append(byMaterial[step * kTints.size() + tint], lampSquare(random, center, side));
     }
   }
@@ -115,10 +123,10 @@ void addHall(SceneBuilder& scene) {
 
 }  // namespace
 
-Scene makeManyLights() {
+Scene makeManyLights(int lamps) {
   SceneBuilder scene("many-lights");
   addHall(scene);
-  addLamps(scene);
+  addLamps(scene, lamps);
   scene.addCamera("entrance", {-1.5, 2.6, -0.6}, {0.3, 1.6, -14.0}, 52.0);
   return scene.finish();
 }

@@ -9,7 +9,8 @@ namespace restlab::builtin {
 
 Scene makeCornellBox();
 Scene makeDoorAjar();
-Scene makeManyLights();
+// `lamps`: about so many squares, 1 to 500,000.
+Scene makeManyLights(int lamps);
 Scene makeGlossyGallery();
 Scene makeGlass();
 Scene makeCourtyard();

@@ -285,6 +285,8 @@ void CompiledScene::Impl::bindAddresses() {
   data.srgbToLinear.data = records.srgb.data();
   data.lights.data = lights.lights.data();
   data.lightAlias.data = lights.alias.data();
+  data.lightTree.data = lights.tree.nodes.data();
+  data.lampShare = lights.tree.share;
   data.lightCount = static_cast<uint32_t>(lights.alias.size());  // 0: all lights are off
   data.environment.data = lights.environment.data();
   data.environmentAlias.data = lights.environmentAlias.data();
@@ -298,6 +300,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.ambient = scene.ambient * scene.ambientFactor;
   data.background = scene.background.value_or(glm::vec3(0.0f));
   data.hasBackground = scene.background ? 1u : 0u;
+  data.hasMedia = (features & rl::RL_FEATURE_VOLUME) != 0 ? 1u : 0u;
   data.instanceCount = static_cast<uint32_t>(instances.size());
 }
 
@@ -383,6 +386,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.srgbToLinear, m.records.srgb.size());
   move(placed.lights, m.lights.lights.size());
   move(placed.lightAlias, m.lights.alias.size());
+  move(placed.lightTree, m.lights.tree.nodes.size());
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.closureParameters, m.records.closureParameters.size());
@@ -396,6 +400,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
 size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }
+size_t CompiledScene::lampCount() const { return impl_->lights.tree.lamps; }
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
 void* CompiledScene::embreeScene() const { return impl_->top; }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }

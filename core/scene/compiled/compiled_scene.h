@@ -16,8 +16,9 @@ namespace restlab {
 class CompiledScene {
  public:
   // Recentres in double precision, bakes meshes used once into world space, builds the light table
-  // (selection by power) and the environment's alias table. Adds warnings (zero-area lights, no
-  // light, vertices that float32 rounds: core/scene/compiled/coarse_vertices.h).
+  // (selection by power) with its hierarchy and the environment's alias table. Adds warnings
+  // (zero-area lights, no light, vertices that float32 rounds:
+  // core/scene/compiled/coarse_vertices.h).
   static std::shared_ptr<const CompiledScene> build(Scene scene);
   ~CompiledScene();
 
@@ -47,6 +48,7 @@ class CompiledScene {
   size_t triangleCount() const;           // unique
   size_t instancedTriangleCount() const;  // with every instance counted
   size_t emissiveTriangleCount() const;
+  size_t lampCount() const;    // emitting triangles, points and spots that shine
   size_t bytes() const;        // all buffers that kernels read
   size_t embreeBytes() const;  // Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;   // RTCScene

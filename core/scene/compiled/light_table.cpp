@@ -268,6 +268,7 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
   if (!shares.empty()) {
     table.alias = buildAliasTable(shares, shares.size());
     for (size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
+    table.tree = buildLightTree(table.lights);
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/dialect/types.h"
+#include "core/scene/compiled/light_tree.h"
 #include "core/scene/scene.h"
 
 namespace restlab {
@@ -14,7 +15,8 @@ struct LightTable {
   // Includes lights that are off (core/scene/compiled/light_factor.h), with probability 0:
   // reservoirs identify lights by index.
   std::vector<rl::Light> lights;
-  std::vector<rl::AliasEntry> alias;   // one per light; empty if none shines
+  std::vector<rl::AliasEntry> alias;  // one per light; empty if none shines
+  LightTree tree;
   std::vector<glm::vec3> environment;  // scaled radiance
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;

@@ -73,7 +73,7 @@ SessionConfig methodConfig(const Suite& suite, const SuiteMethod& method,
   config.mode = method.session.mode;
   config.cache = method.session.cache;
   config.parameters = method.session.parameters;
-  config.specialise = method.session.specialise;
+  config.kernels = method.session.kernels;
   config.denoiser = method.session.denoiser;
   config.backend = method.session.backend;
   suite.chooseDevice(config);
@@ -139,6 +139,7 @@ struct BlockExecutor::Impl {
       MethodResult method;
       method.featuresLeftOut = featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
       method.bytesPerPixel = session.bytesPerPixel();
+      method.codeBytes = session.codeBytes();
       method.use = deviceUseOf(session);
       method.startupMs =
           session.startup().timeMs + (block.startupMs.empty() ? 0.0 : block.startupMs.at(m));

@@ -93,6 +93,7 @@ struct MethodResult {
   size_t bytesPerPixel = 0;
   DeviceUse use;
   double startupMs = 0.0;  // total time in this program until its kernels were ready
+  size_t codeBytes = 0;    // machine code of kernels that were compiled for the scene
 };
 
 struct BlockResult {

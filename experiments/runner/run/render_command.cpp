@@ -70,7 +70,8 @@ void addMethod(const SessionConfig& config, Words& words) {
     add(words, std::string("--") + setting.key, config.*(setting.value));
   add(words, "--device", config.device);
   add(words, "--ray-tracing", config.rayTracing);
-  if (!config.specialise) words.emplace_back("--general");
+  if (config.kernels != KernelChoice::exact)
+    add(words, "--kernels", kernelChoiceName(config.kernels));
   for (const auto& [name, value] : config.parameters)
     add(words, "--set", fmt::format("{}={}", name, valueText(value)));
 }

@@ -41,7 +41,7 @@ Json configurationJson(const Suite& suite, const BlockResult& block, size_t meth
                {"method", suite.methods[method].name},
                {"device", use.device},
                {"ray_tracing", use.rayTracing},
-               {"kernel", session.specialise ? "specialised" : "general"},
+               {"kernel", kernelChoiceName(session.kernels)},
                {"parameters", parametersJson(suite.methods[method])},
                {"width", block.width},
                {"height", block.height},
@@ -205,6 +205,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["features_left_out"] = method.featuresLeftOut;
   line["bytes_per_pixel"] = method.bytesPerPixel;
   line["startup_ms"] = method.startupMs;
+  line["code_bytes"] = method.codeBytes;
   line["reference"] = referenceJson(block);
   line["source_hash"] = buildInfo().sourceHash;
   line["provenance"] = provenanceJson();
@@ -286,6 +287,7 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     if (line.contains("temporal")) run.temporal = temporalOf(line.at("temporal"));
     method.featuresLeftOut = line.at("features_left_out").get<std::string>();
     method.bytesPerPixel = line.at("bytes_per_pixel").get<size_t>();
+    method.codeBytes = line.at("code_bytes").get<size_t>();
     method.startupMs = std::max(method.startupMs, line.at("startup_ms").get<double>());
     method.use.backend = line.at("backend").get<std::string>();
     method.use.device = line.at("device").get<std::string>();

@@ -21,41 +21,41 @@ DeviceUse deviceUseOf(const Session& session) {
   return {session.config().backend, session.device(), session.rayTracing()};
 }
 
-void StartupLog::add(const Session& session, size_t firstKernel, size_t firstNotice) {
+void StartupLog::add(const Session& session, const StartupReport& before) {
   const StartupReport& report = session.startup();
-  for (size_t i = firstNotice; i < report.notices.size(); ++i) {
+  for (size_t i = before.notices.size(); i < report.notices.size(); ++i) {
     const std::string& notice = report.notices[i];
     if (std::find(notices_.begin(), notices_.end(), notice) == notices_.end())
       notices_.push_back(notice);
   }
-  if (firstKernel >= report.kernels.size()) return;
+  if (report.kernels.size() <= before.kernels.size()) return;
   const DeviceUse use = deviceUseOf(session);
   auto entry = std::find_if(entries_.begin(), entries_.end(),
                             [&](const Entry& known) { return known.use == use; });
   if (entry == entries_.end()) entry = entries_.insert(entries_.end(), {use, {}});
   entry->kernels.insert(entry->kernels.end(),
-                        report.kernels.begin() + static_cast<std::ptrdiff_t>(firstKernel),
+                        report.kernels.begin() + std::ptrdiff_t(before.kernels.size()),
                         report.kernels.end());
+  entry->timeMs += report.timeMs - before.timeMs;
 }
 
 void StartupLog::print() {
   for (const std::string& notice : notices_) logWarning(notice);
   notices_.clear();
   for (const Entry& entry : entries_) {
-    double timeMs = 0.0;
     size_t stored = 0;
     for (const KernelReport& kernel : entry.kernels) {
-      timeMs += kernel.glslMs + kernel.driverMs;
       stored += kernel.fromDisk ? 1 : 0;
       logDetail(fmt::format("kernel {} ({}): {} {:.0f} ms, driver {:.0f} ms", kernel.kernel,
                             featureNames(kernel.mask),
-                            kernel.fromDisk ? "SPIR-V from the cache" : "GLSL", kernel.glslMs,
+                            kernel.fromDisk ? "from the cache" : "compiled", kernel.compileMs,
                             kernel.driverMs));
     }
-    logInfo(fmt::format("{}: {} kernel{} ready in {:.2g} s{} on {}", entry.use.backend,
-                        entry.kernels.size(), entry.kernels.size() == 1 ? "" : "s", timeMs / 1000.0,
-                        stored > 0 ? fmt::format(" ({} from the cache)", stored) : "",
-                        entry.use.device));
+    const bool isNothingNew = entry.use.backend == "cpu" && stored == entry.kernels.size();
+    (isNothingNew ? logDetail : logInfo)(fmt::format(
+        "{}: {} kernel{} ready in {:.2g} s{} on {}", entry.use.backend, entry.kernels.size(),
+        entry.kernels.size() == 1 ? "" : "s", entry.timeMs / 1000.0,
+        stored > 0 ? fmt::format(" ({} from the cache)", stored) : "", entry.use.device));
   }
   entries_.clear();
 }

@@ -26,16 +26,18 @@ DeviceUse deviceUseOf(const Session& session);
 // report, so nothing is logged twice.
 class StartupLog {
  public:
-  // `firstKernel`, `firstNotice`: skip those added before.
-  void add(const Session& session, size_t firstKernel = 0, size_t firstNotice = 0);
+  // `before`: what the session had reported earlier; skipped.
+  void add(const Session& session, const StartupReport& before = {});
   // Prints warnings, then "vulkan: 3 kernels ready in 2.4 s (2 from the cache) on ..." for each
-  // device; with -v one line per kernel.
+  // device; with -v one line per kernel. Kernels of the CPU that all came from the cache are
+  // details, too.
   void print();
 
  private:
   struct Entry {
     DeviceUse use;
     std::vector<KernelReport> kernels;
+    double timeMs = 0.0;
   };
   std::vector<Entry> entries_;
   std::vector<std::string> notices_;

@@ -212,7 +212,7 @@ std::map<std::string, std::string> describe(const PreparedScene& prepared,
       {"width", std::to_string(config.width)},
       {"height", std::to_string(config.height)},
       {"component", componentName(config.components)},
-      {"kernel", config.specialise ? "specialised" : "general"},
+      {"kernel", kernelChoiceName(config.kernels)},
       {"source_hash", buildInfo().sourceHash},
       {"reference_sources", buildInfo().referenceHash},
   };

@@ -108,7 +108,7 @@ size_t Suite::onFirstBackend(size_t method) const {
   const auto first = std::find_if(methods.begin(), methods.end(), [&](const SuiteMethod& other) {
     const SessionConfig &a = own.session, &b = other.session;
     return own.base == other.base && a.integrator == b.integrator && a.mode == b.mode &&
-           a.cache == b.cache && a.denoiser == b.denoiser && a.specialise == b.specialise &&
+           a.cache == b.cache && a.denoiser == b.denoiser && a.kernels == b.kernels &&
            a.parameters == b.parameters;
   });
   return size_t(first - methods.begin());

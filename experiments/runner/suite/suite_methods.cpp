@@ -72,7 +72,9 @@ std::vector<SuiteMethod> readMethod(const ConfigTable& table, const ConfigTable&
     table.fail("cache", fmt::format("integrator {} keeps no reservoirs: it has no use for a cache",
                                     info.name));
   }
-  method.session.specialise = !table.getBool("general", false);
+  const std::string kernels = kernelChoiceName(method.session.kernels);
+  method.session.kernels = parseKernelChoice(
+      table.getChoice("kernels", kernels, kernelChoiceNames()), table.place("kernels"));
   std::vector<std::string> denoisers;
   for (const DenoiserInfo* denoiser : denoiserRegistry()) denoisers.push_back(denoiser->name);
   for (const MissingDenoiser& missing : missingDenoisers()) {

@@ -69,7 +69,7 @@ const std::vector<std::string>& methodKeys() {
   static const std::vector<std::string> keys = [] {
     std::vector<std::string> all;
     for (const MethodSetting& setting : methodSettings()) all.emplace_back(setting.key);
-    all.emplace_back("general");
+    all.emplace_back("kernels");
     return all;
   }();
   return keys;

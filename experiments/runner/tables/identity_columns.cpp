@@ -31,7 +31,7 @@ std::string nameAt(size_t (Suite::*of)(size_t) const, const Row& row) {
 
 std::string kernelName(const SuiteMethod& method) {
   if (method.images) return "none";
-  return method.session.specialise ? "specialised" : "general";
+  return kernelChoiceName(method.session.kernels);
 }
 
 Column settingColumn(size_t index, const MethodSetting& setting) {
@@ -108,7 +108,7 @@ Columns conditionColumns() {
        .help = "of run 0; run r has seed + r"},
       {.key = "kernel",
        .get = [](const Row& row) { return kernelName(*row.method); },
-       .help = "specialised to the scene, or general"},
+       .help = "exact for the scene, built-in, or general"},
       {.key = "reference_spp",
        .get = [](const Row& row) { return uint64_t(row.block->reference.spp); },
        .help = "samples per pixel of the reference"},
@@ -125,6 +125,10 @@ Columns conditionColumns() {
        .get = [](const Row& row) { return only(row.result->startupMs); },
        .unit = "ms",
        .help = "making the kernels ready; a shared kernel counts with the first method"},
+      {.key = "code_bytes",
+       .get = [](const Row& row) { return uint64_t(row.result->codeBytes); },
+       .unit = "bytes",
+       .help = "machine code of the kernels that were compiled for the scene; 0: all are built in"},
       {.key = "time_ratio_to_first_backend",
        .get = [](const Row& row) { return row.timeToFirstBackend; },
        .ends = Ends::all,

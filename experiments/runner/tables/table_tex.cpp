@@ -138,7 +138,7 @@ std::string signedShareCell(const Columns&, const Column& column, const MethodSu
 }
 
 // Column of a table and the form of its cells.
-struct Shown {
+struct TexColumn {
   const Column* column;
   TexCell cell;
 };
@@ -162,7 +162,7 @@ class TexTable {
   std::string text(const std::string& caption, const std::string& notes = "",
                    bool (*isIn)(const MethodSummary&) = nullptr) const {
     std::string head = "method", lines;
-    for (const Shown& shown : shown_) {
+    for (const TexColumn& shown : shown_) {
       const Column& column = *shown.column;
       head += " & " + (column.tex.empty() ? escaped(column.title) : column.tex);
     }
@@ -178,7 +178,7 @@ class TexTable {
  private:
   std::string lineOf(const MethodSummary& row) const {
     std::string line = nameCell(row);
-    for (const Shown& shown : shown_) {
+    for (const TexColumn& shown : shown_) {
       const Column& column = *shown.column;
       const bool isBest = row.counts && numberOf(column, row).value == bestOf(column, rows_);
       line += " & " + shown.cell(columns_, column, row, isBest);
@@ -188,7 +188,7 @@ class TexTable {
 
   const Columns& columns_;
   const std::vector<MethodSummary>& rows_;
-  std::vector<Shown> shown_;
+  std::vector<TexColumn> shown_;
 };
 
 // Returns the suite's further metrics and masks, one column each; "" if there are none.

@@ -1,0 +1,26 @@
+// Choice of the kernels that the CPU runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace restlab {
+
+enum class KernelChoice {
+  exact,    // compiled for exactly the features of the scene, when a session begins
+  builtIn,  // the smallest of those that were compiled with the program
+  general,  // with all features of glTF, and the closures of the scene
+};
+
+// Their names: "exact", "built-in", "general".
+const std::vector<std::string>& kernelChoiceNames();
+std::string kernelChoiceName(KernelChoice choice);
+// `where` names the option or the setting in errors. Throws Error (badUsage) for an unknown name.
+KernelChoice parseKernelChoice(const std::string& name, const std::string& where);
+// RESTLAB_KERNELS, or exact.
+KernelChoice defaultKernelChoice();
+// Throws Error (badUsage) if RESTLAB_KERNELS is set and names none: the default is asked for before
+// a program can report errors.
+void checkDefaultKernelChoice();
+
+}  // namespace restlab

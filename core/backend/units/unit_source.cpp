@@ -1,0 +1,46 @@
+#include "core/backend/units/unit_source.h"
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace restlab {
+
+namespace {
+
+constexpr const char* kBody = "core/backend/cpu_kernel.inl";
+constexpr const char* kTrace = "core/backend/cpu_trace.inl";
+
+const DialectKernel& filesOf(const std::string& kernel) {
+  for (const DialectKernel& known : dialectKernels())
+    if (known.name == kernel) return known;
+  failUsage("no kernel '" + kernel + "' in this build");
+}
+
+}  // namespace
+
+std::string unitText(const KernelUnit& unit, const std::string& compilerVersion) {
+  const DialectKernel& files = filesOf(unit.kernel);
+  return fmt::format(R"(#define RL_KERNEL_NAME {name}
+#define RL_KERNEL_MASKS(M) M(unit, {mask}u)
+#define RL_KERNEL_HEADER "{header}"
+#define RL_KERNEL_FILE "{file}"
+#define RL_KERNEL_TRACE "{trace}"
+#include "{body}"
+static_assert(__builtin_strcmp(__VERSION__, R"rl({version})rl") == 0,
+              "the compiler is another one than that of the program: build the program anew");
+extern "C" __attribute__((visibility("default"))) const rl::CpuKernelEntry {entry};
+extern "C" const rl::CpuKernelEntry {entry} = rl::kernel_{name}_unit;
+)",
+                     fmt::arg("name", unit.kernel), fmt::arg("mask", unit.mask),
+                     fmt::arg("header", files.header), fmt::arg("file", files.file),
+                     fmt::arg("trace", kTrace), fmt::arg("body", kBody),
+                     fmt::arg("version", compilerVersion), fmt::arg("entry", kUnitEntry));
+}
+
+std::vector<DialectSource> unitSources(const KernelUnit& unit) {
+  const DialectKernel& files = filesOf(unit.kernel);
+  return includedSources({kBody, kTrace, files.header, files.file});
+}
+
+}  // namespace restlab

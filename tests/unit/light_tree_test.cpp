@@ -1,0 +1,211 @@
+// The hierarchy of lamps: a receiver draws each lamp with the probability that is evaluated for it,
+// and misses none that can send it light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/scene/compiled/light_tree.h"
+#include "tests/unit/dialect_context.h"
+#include "tests/unit/goodness.h"
+#include "tests/unit/random_inputs.h"
+
+namespace restlab::unit {
+namespace {
+
+rl::Light randomLamp(Inputs& inputs) {
+  rl::Light light{};
+  const auto place = [&] {
+    const float x = inputs.uniform(-4.0f, 4.0f), y = inputs.uniform(-4.0f, 4.0f);
+    return glm::vec3(x, y, inputs.uniform(-4.0f, 4.0f));
+  };
+  light.kind = std::array{rl::RL_LIGHT_TRIANGLE, rl::RL_LIGHT_TRIANGLE, rl::RL_LIGHT_POINT,
+                          rl::RL_LIGHT_SPOT}[inputs.below(4)];
+  light.p0 = place();
+  light.pmf = inputs.scale(1e-4f, 1.0f);
+  if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+    const float size = inputs.scale(0.01f, 2.0f);
+    light.e1 = size * inputs.direction();
+    light.e2 = size * inputs.direction();
+    if (inputs.below(3) == 0) light.flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
+    if (inputs.below(3) == 0) light.flags |= rl::RL_LIGHT_FLIPPED;
+  }
+  if (light.kind == rl::RL_LIGHT_SPOT) {
+    light.e1 = inputs.direction();
+    const float outer = std::cos(inputs.uniform(0.1f, 1.5f));
+    const float scale = 1.0f / std::max(0.001f, 1.0f - outer);
+    light.e2 = {scale, -outer * scale, 0.0f};
+  }
+  return light;
+}
+
+// Lamps with their hierarchy, as a kernel sees them.
+struct Lamps {
+  std::vector<rl::Light> lights;
+  LightTree tree;
+  Dialect<> d;
+
+  explicit Lamps(std::vector<rl::Light> all) : lights(std::move(all)) {
+    double sum = 0.0;
+    for (const rl::Light& light : lights) sum += light.pmf > 0.0f ? double(light.pmf) : 0.0;
+    for (rl::Light& light : lights) light.pmf = static_cast<float>(light.pmf / sum);
+    tree = buildLightTree(lights);
+    d.scene.lights.data = lights.data();
+    d.scene.lightTree.data = tree.nodes.data();
+    d.scene.lampShare = tree.share;
+    d.frame.lightTree = 1;
+  }
+  // The lamp at the end of a lamp's parts.
+  uint32_t ledTo(uint32_t trail) {
+    uint32_t link = 0;
+    do {
+      link = d->lightNodeLink(link, trail & 3u);
+      trail >>= 2;
+    } while ((link & rl::RL_LIGHT_NODE_LEAF) == 0);
+    return link & ~rl::RL_LIGHT_NODE_LEAF;
+  }
+};
+
+std::vector<rl::Light> randomLamps(uint32_t count, uint64_t seed) {
+  Inputs inputs(seed);
+  std::vector<rl::Light> all;
+  for (uint32_t i = 0; i < count; ++i) all.push_back(randomLamp(inputs));
+  return all;
+}
+
+rl::LightReceiver randomReceiver(Inputs& inputs) {
+  rl::LightReceiver receiver;
+  const float x = inputs.uniform(-5.0f, 5.0f), y = inputs.uniform(-5.0f, 5.0f);
+  receiver.posW = {x, y, inputs.uniform(-5.0f, 5.0f)};
+  receiver.normalW = inputs.direction();
+  receiver.isTwoSided = inputs.below(3) == 0 ? 1u : 0u;
+  return receiver;
+}
+
+// Whether a point of the lamp sends light to the receiver, by a margin beyond rounding.
+bool reaches(const rl::Light& light, const rl::LightReceiver& receiver, Inputs& inputs) {
+  glm::dvec3 point(light.p0);
+  if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+    glm::dvec2 u(inputs.uniform(), inputs.uniform());
+    if (u.x + u.y > 1.0) u = glm::dvec2(1.0) - u;
+    point += u.x * glm::dvec3(light.e1) + u.y * glm::dvec3(light.e2);
+  }
+  const glm::dvec3 d = glm::normalize(point - glm::dvec3(receiver.posW));
+  const double arriving = glm::dot(d, glm::dvec3(receiver.normalW));
+  if (receiver.isTwoSided == 0u && arriving < 1e-5) return false;
+  if (light.kind == rl::RL_LIGHT_POINT) return true;
+  if (light.kind == rl::RL_LIGHT_SPOT)
+    return -glm::dot(d, glm::dvec3(light.e1)) * light.e2.x + light.e2.y > 1e-5;
+  double leaving =
+      -glm::dot(d, glm::normalize(glm::cross(glm::dvec3(light.e1), glm::dvec3(light.e2))));
+  if ((light.flags & rl::RL_LIGHT_FLIPPED) != 0) leaving = -leaving;
+  if ((light.flags & rl::RL_MATERIAL_DOUBLE_SIDED) != 0) leaving = std::abs(leaving);
+  return leaving > 1e-5;
+}
+
+TEST(LightTree, TurnsLeadToEachLamp) {
+  for (const uint32_t count : {1u, 2u, 3u, 17u, 1000u}) {
+    Lamps lamps(randomLamps(count, count));
+    EXPECT_EQ(lamps.tree.lamps, count);
+    EXPECT_NEAR(lamps.tree.share, 1.0f, 1e-5f);
+    for (uint32_t i = 0; i < count; ++i) ASSERT_EQ(lamps.ledTo(lamps.lights[i].trail), i);
+  }
+}
+
+// Ten receivers draw lamps with the probabilities that lightTreeProbability() gives; what
+// is missing to 1 is drawn as no lamp at all.
+TEST(LightTree, DrawsHaveTheirProbabilities) {
+  Lamps lamps(randomLamps(60, 7));
+  Inputs inputs(11);
+  for (uint32_t r = 0; r < 10; ++r) {
+    const rl::LightReceiver receiver = randomReceiver(inputs);
+    std::vector<double> probabilities;
+    for (const rl::Light& light : lamps.lights)
+      probabilities.push_back(lamps.d->lightTreeProbability(light.trail, receiver));
+    const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+    EXPECT_LE(sum, 1.0 + 1e-5);
+    if (sum == 0.0) {  // it looks away from all of them
+      --r;
+      continue;
+    }
+    EXPECT_GT(sum, 0.5) << "most draws lead nowhere";
+    probabilities.push_back(std::max(1.0 - sum, 0.0));
+    std::vector<uint64_t> counts(probabilities.size());
+    constexpr uint32_t samples = 200'000;
+    for (uint32_t i = 0; i < samples; ++i) {
+      float probability = 0.0f;
+      const uint32_t lamp =
+          lamps.d->lightTreeDraw(lamps.d->rngInit(r, i, 3), receiver, probability);
+      ++counts[lamp == rl::RL_INVALID ? counts.size() - 1 : lamp];
+      if (lamp == rl::RL_INVALID) {
+        ASSERT_EQ(probability, 0.0f);
+      } else {
+        ASSERT_FLOAT_EQ(probability, float(probabilities[lamp]));
+      }
+    }
+    if (probabilities.back() < 1e-5) probabilities.back() = 0.0;
+    expectFits(counts, probabilities, samples, "receiver " + std::to_string(r));
+  }
+}
+
+TEST(LightTree, NoLampInReachIsMissedAndOthersAreLeftOut) {
+  Lamps lamps(randomLamps(300, 5));
+  Inputs inputs(21);
+  uint32_t left = 0, reached = 0;
+  for (uint32_t r = 0; r < 100; ++r) {
+    const rl::LightReceiver receiver = randomReceiver(inputs);
+    for (const rl::Light& light : lamps.lights) {
+      const float probability = lamps.d->lightTreeProbability(light.trail, receiver);
+      bool isReached = false;
+      for (int i = 0; i < 8; ++i) isReached |= reaches(light, receiver, inputs);
+      if (isReached) {
+        ++reached;
+        ASSERT_GT(probability, 0.0f) << light.kind;
+      }
+      left += probability == 0.0f;
+    }
+  }
+  EXPECT_GT(reached, 5000u);
+  EXPECT_GT(left, 3000u) << "hardly any lamp is left out";
+}
+
+// A lamp nearby is asked more often than one as bright that is far away.
+TEST(LightTree, NearLampsAreAskedMoreOften) {
+  std::vector<rl::Light> two(2);
+  for (size_t i = 0; i < 2; ++i) {
+    two[i].kind = rl::RL_LIGHT_POINT;
+    two[i].pmf = 0.5f;
+    two[i].p0 = {i == 0 ? 1.0f : 10.0f, 0.0f, 1.0f};
+  }
+  Lamps lamps(two);
+  const rl::LightReceiver floor{glm::vec3(0.0f), 0u, glm::vec3(0.0f, 0.0f, 1.0f)};
+  const float near = lamps.d->lightTreeProbability(lamps.lights[0].trail, floor);
+  const float far = lamps.d->lightTreeProbability(lamps.lights[1].trail, floor);
+  EXPECT_NEAR(near + far, 1.0f, 1e-6f);
+  // 1/2 cos / d^2 of each: 0.707 / 2 against 0.0995 / 101.
+  EXPECT_NEAR(near / far, (std::sqrt(0.5) / 2.0) / (std::sqrt(1.0 / 101.0) / 101.0), 1.0);
+}
+
+TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {
+  std::vector<rl::Light> none(3);
+  EXPECT_TRUE(buildLightTree(none).nodes.empty());
+  none[1].pmf = std::nanf("");
+  EXPECT_TRUE(buildLightTree(none).nodes.empty());
+  std::vector<rl::Light> same(100'000);
+  for (rl::Light& light : same) {
+    light.kind = rl::RL_LIGHT_POINT;
+    light.pmf = 1e-5f;
+    light.p0 = glm::vec3(1.0f);
+  }
+  same[7].pmf = 0.0f;
+  Lamps lamps(std::move(same));
+  EXPECT_EQ(lamps.tree.lamps, 99'999u);
+  const rl::LightReceiver inside{glm::vec3(1.0f), 0u, glm::vec3(0.0f, 0.0f, 1.0f)};
+  for (const uint32_t i : {0u, 50'000u, 99'999u}) {
+    EXPECT_EQ(lamps.ledTo(lamps.lights[i].trail), i);
+    EXPECT_NEAR(lamps.d->lightTreeProbability(lamps.lights[i].trail, inside) * 1e5, 1.0, 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace restlab::unit
