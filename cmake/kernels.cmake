@@ -108,6 +108,7 @@ function(rl_write_unit_compiler)
   list(FILTER options INCLUDE REGEX "^-f[a-z-]+(=[a-z]+)?$")
   list(APPEND flags -std=c++20 -O3 -DNDEBUG ${options} -fPIC -shared -fvisibility=hidden -pipe -w
        -DRESTLAB_EMBREE_MAJOR=${RESTLAB_EMBREE_MAJOR})
+  string(REGEX REPLACE "([\\\"])" "\\\\\\1" flags "${flags}")
   list(JOIN flags "\\n" flags)
   set(folders "")
   foreach(target IN ITEMS embree glm::glm)

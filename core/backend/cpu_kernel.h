@@ -1,4 +1,4 @@
-// Entry of a kernel on the CPU. One instantiation per feature mask of core/features.list.
+// Entry of a kernel on the CPU: built in for the masks of core/features.list, or a unit.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ CpuKernelTable cpuKernelTable();
 // Called by the generated table alone; always true.
 bool registerCpuKernels(CpuKernelTable table);
 
-// The instantiation with the smallest mask that covers `needed`; null when there is no such kernel.
+// The built-in kernel with the smallest mask that covers `needed`; null when there is none.
 // The project's own hierarchy is compiled into the general mask only.
 const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace = "embree");
 

@@ -256,7 +256,7 @@ struct SceneData {
   FloatRef srgbToLinear;  // 256 entries
   LightRef lights;
   AliasRef lightAlias;
-  Uvec4Ref lightTree;         // null: no session chooses lamps by the receiver
+  Uvec4Ref lightTree;         // hierarchy of lamps; null if none shines
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the

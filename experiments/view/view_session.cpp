@@ -162,7 +162,7 @@ std::string methodToml(const PaneSettings& pane, const std::string& name) {
   }
   text +=
       fmt::format("denoiser = {}\nbackend = {}\n", quoted(config.denoiser), quoted(config.backend));
-  if (config.kernels != KernelChoice::exact)
+  if (config.kernels != defaultKernelChoice())
     text += fmt::format("kernels = {}\n", quoted(kernelChoiceName(config.kernels)));
   for (const auto& [key, value] : config.parameters)
     text += fmt::format("{} = {}\n", key, valueText(value));

@@ -8,6 +8,7 @@ set(RL_BIAS_TESTS
   bias/inconsistent_normals_test.cpp
   bias/builtin_scenes_test.cpp
   bias/camera_motion_test.cpp
+  bias/light_choice_test.cpp
   bias/long_history_test.cpp
   bias/parameters_test.cpp
   bias/transparency_test.cpp

@@ -186,6 +186,27 @@ TEST(LightTree, NearLampsAreAskedMoreOften) {
   EXPECT_NEAR(near / far, (std::sqrt(0.5) / 2.0) / (std::sqrt(1.0 / 101.0) / 101.0), 1.0);
 }
 
+// Lamps that look one way, but for rounding, light nothing behind them.
+TEST(LightTree, ParallelLampsKeepTheirDirection) {
+  Inputs inputs(3);
+  std::vector<rl::Light> spots;
+  const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, -0.8f, 0.51f));
+  for (uint32_t i = 0; i < 64; ++i) {
+    rl::Light light = randomLamp(inputs);
+    light.kind = rl::RL_LIGHT_SPOT;
+    light.e1 = glm::normalize(axis * (1.0f + 1e-3f * float(i)));
+    light.e2 = {10.0f, -9.0f, 0.0f};  // 26 degrees
+    spots.push_back(light);
+  }
+  Lamps lamps(spots);
+  const rl::LightReceiver behind{-100.0f * axis, 1u, axis};
+  const rl::LightReceiver before{100.0f * axis, 1u, axis};
+  float probability = 0.0f;
+  const glm::vec4 none = lamps.d->lightNodeImportance(0, behind);
+  EXPECT_EQ(none, glm::vec4(0.0f));
+  EXPECT_NE(lamps.d->lightTreeDraw(lamps.d->rngInit(1, 1, 1), before, probability), rl::RL_INVALID);
+}
+
 TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {
   std::vector<rl::Light> none(3);
   EXPECT_TRUE(buildLightTree(none).nodes.empty());
@@ -199,7 +220,7 @@ TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {
   }
   same[7].pmf = 0.0f;
   Lamps lamps(std::move(same));
-  EXPECT_EQ(lamps.tree.lamps, 99'999u);
+  EXPECT_EQ(lamps.tree.lamps, 100'000u) << "those that are off count";
   const rl::LightReceiver inside{glm::vec3(1.0f), 0u, glm::vec3(0.0f, 0.0f, 1.0f)};
   for (const uint32_t i : {0u, 50'000u, 99'999u}) {
     EXPECT_EQ(lamps.ledTo(lamps.lights[i].trail), i);

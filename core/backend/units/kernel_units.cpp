@@ -9,7 +9,7 @@
 
 #include "core/backend/kernel_cache.h"
 #include "core/base/error.h"
-#include "core/base/libraries.h"
+#include "core/base/memory.h"
 
 namespace restlab {
 
@@ -57,6 +57,14 @@ std::string writeSources(const fs::path& folder, const std::vector<DialectSource
   return "";
 }
 
+// One for each core, and for each 1.5 GB of memory that is available.
+size_t compilersAtOnce() {
+  constexpr uint64_t kBytesEach = 1'500'000'000;
+  const size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  const uint64_t fit = availableMemory().value_or(~uint64_t{0}) / kBytesEach;
+  return std::max<size_t>(1, std::min<uint64_t>(cores, fit));
+}
+
 }  // namespace
 
 KernelUnits::KernelUnits(UnitCompiler compiler, fs::path folder)
@@ -101,8 +109,8 @@ void KernelUnits::fail(const std::string& why) {
   if (failure_.empty()) failure_ = why;
 }
 
-// Names all that decides about the code: sources, compiler, flags, libraries whose headers are
-// included.
+// Names all that decides about the code: sources, flags, and in `text` the versions of the compiler
+// and of the libraries whose headers are included.
 std::string KernelUnits::keyOf(const KernelUnit& unit, const std::string& text,
                                const std::vector<DialectSource>& sources) const {
   std::string all = text;
@@ -112,13 +120,12 @@ std::string KernelUnits::keyOf(const KernelUnit& unit, const std::string& text,
     all += source.text;
   }
   for (const std::string& flag : compiler_.flags) all += flag + '\n';
-  for (const auto& [library, version] : libraryVersions()) {
-    if (library == "Embree" || library == "GLM") all += library + " " + version + "\n";
-  }
   return fmt::format("{}-{:x}-{}", unit.kernel, unit.mask, contentKey(all));
 }
 
 bool KernelUnits::prepare(const std::vector<KernelUnit>& units, StartupReport& report) {
+  const auto isReady = [&](const KernelUnit& unit) { return find(unit) != nullptr; };
+  if (std::all_of(units.begin(), units.end(), isReady)) return true;
   const std::lock_guard turn(turn_);
   const auto start = Clock::now();
   std::vector<Job> jobs;
@@ -168,6 +175,8 @@ void KernelUnits::compile(std::vector<Job>& jobs) {
     job.loaded = load(job);
     job.fromDisk = job.isReady();
     job.timeMs = msSince(start);
+    // The compiler would make it once more, to no avail.
+    if (!job.fromDisk && job.loaded.isRight) return fail(job.loaded.why);
     if (!job.fromDisk) missing.push_back(&job);
   }
   if (missing.empty()) return;
@@ -189,12 +198,16 @@ void KernelUnits::compile(std::vector<Job>& jobs) {
   size_t done = 0;
   {
     std::vector<std::jthread> workers;
-    const size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    for (size_t i = 0; i < std::min(cores, missing.size()); ++i) {
+    const size_t count = std::min(compilersAtOnce(), missing.size());
+    for (size_t i = 0; i < count; ++i) {
       workers.emplace_back([&] {
         for (size_t job = next++; job < missing.size(); job = next++) {
           if (framesStopped()) return;
-          compile(*missing[job], work.path);
+          try {
+            compile(*missing[job], work.path);
+          } catch (const std::exception& error) {
+            missing[job]->why = error.what();
+          }
           if (!missing[job]->isReady()) next = missing.size();  // the others would fail, too
           const std::lock_guard lock(progressMutex);
           if (progress && missing[job]->isReady()) progress(++done, missing.size());
@@ -210,7 +223,7 @@ void KernelUnits::compile(std::vector<Job>& jobs) {
 // Loads what an earlier run has left; a warning says why a file is of no use.
 UnitFolder::Loaded KernelUnits::load(const Job& job) {
   UnitFolder::Loaded loaded = folder_.load(job.key);
-  if (!loaded.why.empty()) {
+  if (!loaded.why.empty() && !loaded.isRight) {
     const std::lock_guard lock(mutex_);
     warnings_.push_back(loaded.why + "; compiled anew");
   }
@@ -231,6 +244,8 @@ void KernelUnits::compile(Job& job, const fs::path& work) {
     if (job.why.empty()) {
       job.loaded = folder_.load(job.key);
       job.why = job.loaded.why;
+      if (!job.isReady() && job.why.empty())
+        job.why = fmt::format("{}: a unit was deleted as soon as it was made", folder());
     }
   }
   job.timeMs = msSince(start);

@@ -7,11 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "unit_compiler_options.h"
@@ -50,12 +53,25 @@ std::string reasonIn(const fs::path& log, const fs::path& folder) {
   return reason;
 }
 
-// The environment, with temporary files in `folder` and messages in English.
+// The environment with temporary files in `folder` and messages in English, and without what would
+// give the compiler other headers or parts.
 std::vector<std::string> environmentFor(const fs::path& folder) {
+  static const std::array<std::string_view, 9> leftOut = {"TMPDIR=",
+                                                          "LC_ALL=",
+                                                          "CPATH=",
+                                                          "C_INCLUDE_PATH=",
+                                                          "CPLUS_INCLUDE_PATH=",
+                                                          "LIBRARY_PATH=",
+                                                          "COMPILER_PATH=",
+                                                          "GCC_EXEC_PREFIX=",
+                                                          "CCC_OVERRIDE_OPTIONS="};
   std::vector<std::string> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string text = *variable;
-    if (text.rfind("TMPDIR=", 0) != 0 && text.rfind("LC_ALL=", 0) != 0) variables.push_back(text);
+    const bool isLeftOut = std::any_of(leftOut.begin(), leftOut.end(), [&](std::string_view name) {
+      return text.rfind(name, 0) == 0;
+    });
+    if (!isLeftOut) variables.push_back(text);
   }
   variables.push_back("TMPDIR=" + folder.string());
   variables.emplace_back("LC_ALL=C");
@@ -79,6 +95,8 @@ std::pair<pid_t, int> start(std::vector<std::string> arguments, const fs::path& 
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  // A compiler may live on after a program that is killed: it must hold none of its sockets.
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -97,6 +115,8 @@ std::optional<int> waitFor(pid_t child, const std::function<bool()>& isOver) {
   while (true) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child) return status;
+    // Who started the program may have it ignore its children: the system then keeps no status.
+    if (ended < 0 && errno == ECHILD) return 0;
     if (ended < 0 && errno != EINTR) return std::nullopt;
     if (isOver()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -151,7 +171,8 @@ std::string compileUnit(const UnitCompiler& compiler, const fs::path& includes,
     return fmt::format("{}: {}", compiler.program,
                        reason.empty() ? fmt::format("exit code {}", WEXITSTATUS(*status)) : reason);
   }
-  return fs::exists(output) ? "" : fmt::format("{}: wrote no file", compiler.program);
+  std::error_code ignored;
+  return fs::exists(output, ignored) ? "" : fmt::format("{}: wrote no file", compiler.program);
 }
 
 }  // namespace restlab

@@ -133,12 +133,13 @@ UnitFolder::Loaded UnitFolder::load(const std::string& key) const {
   struct stat info = {};
   if (lstat(file.c_str(), &info) != 0 && errno == ENOENT) return {};
   const std::string why = whyNotLoaded(key, file);
-  if (!why.empty()) return {nullptr, 0, fmt::format("{}: {}", file.string(), why)};
+  if (!why.empty()) return {nullptr, 0, fmt::format("{}: {}", file.string(), why), false};
   void* unit = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* entry = unit == nullptr ? nullptr : dlsym(unit, kUnitEntry);
   if (entry == nullptr)
-    return {nullptr, 0, fmt::format("{}: does not load ({})", file.string(), dlerror())};
+    return {nullptr, 0, fmt::format("{}: does not load ({})", file.string(), dlerror()), true};
   Loaded loaded;
+  loaded.isRight = true;
   loaded.codeBytes = codeBytesOf(file);
   std::memcpy(&loaded.entry, entry, sizeof loaded.entry);
   return loaded;

@@ -28,7 +28,8 @@ class UnitFolder {
   struct Loaded {
     rl::CpuKernelEntry entry = nullptr;
     size_t codeBytes = 0;
-    std::string why;  // one line on why a file that is there was not loaded
+    std::string why;       // one line on why a file that is there was not loaded
+    bool isRight = false;  // the file is what it should be
   };
   // Loads the unit of a key, if there is one: not if it is damaged, of another key or owner. A unit
   // stays loaded until the process ends.

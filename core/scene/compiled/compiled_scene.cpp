@@ -454,7 +454,7 @@ size_t CompiledScene::bytes() const {
          of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.records.materials) +
          of(i.records.closureParameters) + of(i.records.textures) + of(i.records.texels) +
          of(i.records.srgb) + of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
-         of(i.lights.environmentAlias) + of(i.bodies.media);
+         of(i.lights.environmentAlias) + of(i.lights.tree.nodes) + of(i.bodies.media);
 }
 
 }  // namespace restlab

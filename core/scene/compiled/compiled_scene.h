@@ -48,7 +48,7 @@ class CompiledScene {
   size_t triangleCount() const;           // unique
   size_t instancedTriangleCount() const;  // with every instance counted
   size_t emissiveTriangleCount() const;
-  size_t lampCount() const;    // emitting triangles, points and spots that shine
+  size_t lampCount() const;    // emitting triangles, points and spots, also those that are off
   size_t bytes() const;        // all buffers that kernels read
   size_t embreeBytes() const;  // Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;   // RTCScene

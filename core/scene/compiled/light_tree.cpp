@@ -36,8 +36,10 @@ Cone joined(const Cone& a, const Cone& b) {
   if (std::min(between + other.spread, kPi) <= wide.spread) return cone;
   cone.spread = 0.5 * (wide.spread + between + other.spread);
   const glm::dvec3 across = glm::cross(wide.axis, other.axis);
-  if (cone.spread >= kPi || glm::length(across) < 1e-9) {
-    cone.spread = kPi;
+  if (cone.spread >= kPi || glm::length(across) < 1e-6) {
+    // One axis but for rounding, or opposite ones: there is no direction to turn to.
+    const bool isOne = glm::dot(wide.axis, other.axis) > 0.0;
+    cone.spread = isOne ? std::min(std::max(wide.spread, between + other.spread), kPi) : kPi;
     return cone;
   }
   // Turn the wider cone's axis towards the other one's.
@@ -91,7 +93,7 @@ Bounds boundsOf(const rl::Light& light) {
     b.cone.spread = isTwoSided ? kPi : 0.0;
     b.cone.beyond = 0.5 * kPi;
   } else if (light.kind == rl::RL_LIGHT_SPOT) {
-    b.cone.axis = glm::dvec3(light.e1);
+    b.cone.axis = glm::normalize(glm::dvec3(light.e1));
     b.cone.spread = 0.0;
     // Light::e2 has the scale and the offset of the falloff, which is 0 at the outer cosine.
     const double scale = double(light.e2.x), offset = double(light.e2.y);
@@ -124,6 +126,7 @@ class Builder {
       const uint32_t kind = lights[i].kind;
       const bool isLamp =
           kind == rl::RL_LIGHT_TRIANGLE || kind == rl::RL_LIGHT_POINT || kind == rl::RL_LIGHT_SPOT;
+      if (isLamp) ++lamps_;
       if (!isLamp || !(lights[i].pmf > 0.0f)) continue;
       order_.push_back(i);
       bounds_.push_back(boundsOf(lights[i]));
@@ -135,7 +138,7 @@ class Builder {
     writeNode({0, uint32_t(places_.size())}, 0, 0);
   }
 
-  LightTree take() { return {std::move(nodes_), order_.size(), static_cast<float>(share_)}; }
+  LightTree take() { return {std::move(nodes_), lamps_, static_cast<float>(share_)}; }
 
  private:
   Bounds boundsOfRange(uint32_t first, uint32_t end) const {
@@ -279,6 +282,7 @@ class Builder {
   std::vector<Bounds> bounds_;    // of each of them
   std::vector<uint32_t> places_;  // their order in the hierarchy
   std::vector<glm::uvec4> nodes_;
+  size_t lamps_ = 0;
   double share_ = 0.0;
 };
 

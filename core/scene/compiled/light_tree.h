@@ -10,8 +10,8 @@ namespace restlab {
 
 struct LightTree {
   std::vector<glm::uvec4>
-      nodes;  // RL_LIGHT_NODE_UVEC4S each, the root first; empty: no lamp shines
-  size_t lamps = 0;
+      nodes;           // RL_LIGHT_NODE_UVEC4S each, the root first; empty: no lamp shines
+  size_t lamps = 0;    // triangles, points and spots, also those that are off
   float share = 0.0f;  // probability that the alias table gives a lamp of the hierarchy
 };
 

@@ -70,7 +70,7 @@ void addMethod(const SessionConfig& config, Words& words) {
     add(words, std::string("--") + setting.key, config.*(setting.value));
   add(words, "--device", config.device);
   add(words, "--ray-tracing", config.rayTracing);
-  if (config.kernels != KernelChoice::exact)
+  if (config.kernels != defaultKernelChoice())
     add(words, "--kernels", kernelChoiceName(config.kernels));
   for (const auto& [name, value] : config.parameters)
     add(words, "--set", fmt::format("{}={}", name, valueText(value)));

@@ -59,7 +59,7 @@ struct SuiteMethod {
   std::string name;                // in tables and file names; unique
   std::string base;                // same on every backend; equals the name if there is only one
   std::string given;               // as in the suite, without swept values
-  SessionConfig session;           // integrator, mode, cache, parameters, specialise, backend
+  SessionConfig session;           // integrator, mode, cache, parameters, kernels, backend
   std::optional<ImageRow> images;  // if set, nothing is rendered, and `session` is unused
   // Places in the suite, for errors: file:line:column.
   std::string backendPlace, namePlace;
