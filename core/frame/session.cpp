@@ -16,6 +16,7 @@
 #include "core/frame/pipeline.h"
 #include "core/gbuffer/view_parts.h"
 #include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/compiled/light_tree.h"
 #include "core/scene/closure_info.h"
 
 namespace restlab {
@@ -142,8 +143,15 @@ void Session::Impl::open() {
                           config.height));
   }
   needed = scene->features(config.multiscatter);
-  if (config.lightChoice == kLightChoiceTree && scene->lampCount() > 1)
+  if (config.lightChoice == kLightChoiceTree && scene->lampCount() > 1) {
+    if (scene->lampCount() > kMostLampsOfTree) {
+      failUsage(
+          fmt::format("light_choice tree: scene {} has {} lamps, more than {}: power would be "
+                      "right",
+                      scene->source().name, scene->lampCount(), kMostLampsOfTree));
+    }
     needed |= rl::RL_FEATURE_LIGHT_TREE;
+  }
   const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
   if (multiscatter) scene->bindGgxAlbedo();
   beforeFrame.reset();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/error.h"
+#include "core/frame/session.h"
 #include "core/scene/compiled/light_tree.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
@@ -205,6 +207,23 @@ TEST(LightTree, ParallelLampsKeepTheirDirection) {
   const glm::vec4 none = lamps.d->lightNodeImportance(0, behind);
   EXPECT_EQ(none, glm::vec4(0.0f));
   EXPECT_NE(lamps.d->lightTreeDraw(lamps.d->rngInit(1, 1, 1), before, probability), rl::RL_INVALID);
+}
+
+// Beyond the limit no hierarchy is built, and a session that asks for one is refused.
+TEST(LightTree, TooManyLampsAreRefused) {
+  std::vector<rl::Light> many(kMostLampsOfTree + 1);
+  for (rl::Light& light : many) {
+    light.kind = rl::RL_LIGHT_POINT;
+    light.pmf = 1e-6f;
+  }
+  EXPECT_TRUE(buildLightTree(many).nodes.empty());
+  SessionConfig config;
+  config.lightChoice = kLightChoiceTree;
+  config.renders = false;
+  const auto scene = CompiledScene::build(makeBuiltinScene("quad-light?triangles=2e5"));
+  EXPECT_THROW(Session(scene, config), Error);
+  config.lightChoice = kLightChoicePower;
+  EXPECT_NO_THROW(Session(scene, config));
 }
 
 TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {

@@ -132,7 +132,7 @@ class Builder {
       bounds_.push_back(boundsOf(lights[i]));
       share_ += double(lights[i].pmf);
     }
-    if (order_.empty()) return;
+    if (order_.empty() || order_.size() > kMostLampsOfTree) return;
     places_.resize(order_.size());
     std::iota(places_.begin(), places_.end(), 0u);
     writeNode({0, uint32_t(places_.size())}, 0, 0);

@@ -8,9 +8,12 @@
 
 namespace restlab {
 
+// Beyond so many lamps there is no hierarchy: it takes a second to build for these.
+constexpr size_t kMostLampsOfTree = size_t{1} << 17;
+
 struct LightTree {
-  std::vector<glm::uvec4>
-      nodes;           // RL_LIGHT_NODE_UVEC4S each, the root first; empty: no lamp shines
+  // RL_LIGHT_NODE_UVEC4S each, the root first. Empty: no lamp shines, or there are too many.
+  std::vector<glm::uvec4> nodes;
   size_t lamps = 0;    // triangles, points and spots, also those that are off
   float share = 0.0f;  // probability that the alias table gives a lamp of the hierarchy
 };
