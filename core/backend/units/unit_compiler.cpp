@@ -115,7 +115,7 @@ std::optional<int> waitFor(pid_t child, const std::function<bool()>& isOver) {
   while (true) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child) return status;
-    // Who started the program may have it ignore its children: the system then keeps no status.
+    // A launcher may have the program ignore its children: the system then keeps no status.
     if (ended < 0 && errno == ECHILD) return 0;
     if (ended < 0 && errno != EINTR) return std::nullopt;
     if (isOver()) break;
