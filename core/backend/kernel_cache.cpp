@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/cache_folder.h"
 #include "core/base/error.h"
 #include "core/image/io/atomic_file.h"
 
@@ -34,13 +35,7 @@ std::string contentKey(const std::string& text) {
 KernelCache::KernelCache(fs::path folder, Warn warn)
     : folder_(std::move(folder)), warn_(std::move(warn)) {}
 
-fs::path KernelCache::defaultFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-    return fs::path(cache) / "restlab" / "kernels";
-  if (const char* home = std::getenv("HOME"); home && *home == '/')
-    return fs::path(home) / ".cache" / "restlab" / "kernels";
-  return {};
-}
+fs::path KernelCache::defaultFolder() { return cacheFolder("kernels"); }
 
 std::optional<std::vector<uint8_t>> KernelCache::read(const std::string& name) const {
   if (folder_.empty()) return std::nullopt;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/backend/kernel_choice.h"
+#include "core/frame/feature_names.h"
 #include "core/frame/integrator.h"
 #include "core/frame/transport_settings.h"
 #include "core/image/image.h"
@@ -153,8 +154,5 @@ class Session {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-// Formats features for reports: "textures+alpha", "none".
-std::string featureNames(uint32_t mask);
 
 }  // namespace restlab

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/backend/units/unit_source.h"
+#include "core/base/cache_folder.h"
 
 namespace restlab {
 
@@ -86,13 +87,7 @@ size_t codeBytesOf(const fs::path& file) {
 
 }  // namespace
 
-fs::path UnitFolder::defaultFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-    return fs::path(cache) / "restlab" / "units";
-  if (const char* home = std::getenv("HOME"); home && *home == '/')
-    return fs::path(home) / ".cache" / "restlab" / "units";
-  return {};
-}
+fs::path UnitFolder::defaultFolder() { return cacheFolder("units"); }
 
 std::string UnitFolder::open() const {
   if (folder_.empty()) return "neither XDG_CACHE_HOME nor HOME names a folder to keep them in";

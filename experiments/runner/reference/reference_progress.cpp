@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/base/cache_folder.h"
 #include "core/base/error.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
@@ -75,15 +76,7 @@ void makeRoom(const fs::path& folder, uint64_t maxBytes) {
 
 }  // namespace
 
-fs::path referenceCacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/') {
-    return fs::path(cache) / "restlab" / "references";
-  }
-  if (const char* home = std::getenv("HOME"); home && *home == '/') {
-    return fs::path(home) / ".cache" / "restlab" / "references";
-  }
-  return {};
-}
+fs::path referenceCacheFolder() { return cacheFolder("references"); }
 
 fs::path stateFile(const fs::path& folder, const ReferenceId& id) {
   return folder / fmt::format("{}-{}-{}{}", id.key, id.backend, id.seed, kExtension);
