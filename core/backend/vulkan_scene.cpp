@@ -10,12 +10,14 @@ namespace restlab {
 std::shared_ptr<VulkanScene> VulkanScene::of(const std::shared_ptr<VulkanMemory>& memory,
                                              const std::shared_ptr<const CompiledScene>& scene,
                                              SceneRays rays) {
-  using Key = std::tuple<const void*, const void*, bool, SceneRays>;
+  using Key = std::tuple<const void*, const void*, bool, bool, SceneRays>;
   static std::map<Key, std::weak_ptr<VulkanScene>> known;
   if (rays == SceneRays::bvh) scene->bindBvh();
-  // The key includes the GGX table: an upload from before a session bound the table lacks it.
+  // The key includes what sessions bind: an upload from before lacks it.
   const bool hasAlbedo = scene->data().ggxAlbedo.data != nullptr;
-  std::weak_ptr<VulkanScene>& entry = known[{memory.get(), scene.get(), hasAlbedo, rays}];
+  const bool hasLightTree = scene->data().lightTree.data != nullptr;
+  std::weak_ptr<VulkanScene>& entry =
+      known[{memory.get(), scene.get(), hasAlbedo, hasLightTree, rays}];
   if (auto uploaded = entry.lock()) return uploaded;
   std::shared_ptr<VulkanScene> uploaded(new VulkanScene(memory, scene));
   uploaded->upload(rays);

@@ -1,5 +1,6 @@
 // The functions of the dialect, in the order in which GLSL must see them. Included inside the
 // kernel context of either machine, after all headers.
+#include "core/dialect/lanes.glsl"
 #include "core/dialect/records.glsl"
 #include "core/dialect/view.glsl"
 #include "core/dialect/rng.glsl"

@@ -3,6 +3,7 @@
 #define RL_ORDER_H
 #include "core/dialect/dialect.h"
 #include "core/dialect/features.h"
+#include "core/dialect/lanes.h"
 #include "core/dialect/types.h"
 #include "core/dialect/math.h"
 #include "core/dialect/sampling.h"

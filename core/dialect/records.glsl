@@ -121,7 +121,7 @@ RL_FN Light recordLight(uint index) {
   light.primitive = q4.x;
   light.flags = q4.y;
   light.magnitude = uintBitsToFloat(q4.z);
-  light.trail = q4.w;
+  light.padding = q4.w;
   return light;
 }
 

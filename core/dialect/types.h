@@ -176,7 +176,7 @@ struct Light {
   uint primitive;
   uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
   float magnitude;  // metres; largest coordinate of the corners and within their transform
-  uint trail;       // parts from the root of the hierarchy to the lamp, 2 bits each
+  uint padding;
 };
 RL_STATIC_ASSERT_SIZE(Light, 80);
 
@@ -184,8 +184,13 @@ RL_STATIC_ASSERT_SIZE(Light, 80);
 // of each for the box (low x, y, z, high x, y, z), the power (as the probability that the alias
 // table gives a lamp of the part; 0: there is no such part), the axis of the cone of normals (x, y,
 // z), its angle and how far from a normal lamps emit (cosines of 16 bits), and the node of the
-// part, or:
-const uint RL_LIGHT_NODE_LEAF = 0x80000000u;  // | lamp
+// part, or one of:
+const uint RL_LIGHT_NODE_LEAF = 0x80000000u;     // | lamp
+const uint RL_LIGHT_NODE_CLUSTER = 0xc0000000u;  // | uvec4 of a cluster; both bits
+// A cluster is chosen from by power: a uvec4 with the number of its lamps, then for each one that
+// of an alias table: the bits below which the column gives its own lamp, that lamp, and the other
+// one.
+const uint RL_LIGHT_NODE_WHERE = 0x3fffffffu;  // mask
 const uint RL_LIGHT_NODE_UVEC4S = 12u;
 const uint RL_LIGHT_TREE_DEPTH = 16u;  // nodes between the root and a lamp, at most
 
@@ -256,7 +261,10 @@ struct SceneData {
   FloatRef srgbToLinear;  // 256 entries
   LightRef lights;
   AliasRef lightAlias;
-  Uvec4Ref lightTree;         // hierarchy of lamps; null if none shines
+  Uvec4Ref lightTree;  // hierarchy of lamps; null unless a session chooses by it
+  // Two words a light: its part of each node from the root on, two bits a node, the lowest first;
+  // its probability in its cluster (a float; 1 outside of clusters).
+  UintRef lightTrails;
   Vec3Ref environment;        // radiance per texel, already scaled, row 0 on top
   AliasRef environmentAlias;  // pmf per texel
   // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the
@@ -280,7 +288,7 @@ struct SceneData {
   vec3 ambient;        // radiance that every surface gets from everywhere, without shadows
   vec3 background;     // radiance that the camera sees where it sees nothing
   uint hasBackground;  // 0: it sees the environment
-  float lampShare;     // probability that lightAlias gives a lamp of the hierarchy
+  float lampShare;     // probability that lightAlias gives a lamp; 1: there is nothing else
   uint hasMedia;       // 1: some bodies absorb, scatter, touch or overlap (RL_FEATURE_VOLUME)
 };
 

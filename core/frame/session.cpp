@@ -16,7 +16,6 @@
 #include "core/frame/pipeline.h"
 #include "core/gbuffer/view_parts.h"
 #include "core/scene/compiled/compiled_scene.h"
-#include "core/scene/compiled/light_tree.h"
 
 namespace restlab {
 
@@ -80,6 +79,7 @@ struct Session::Impl {
   void open();
   // Creates the pipeline, with the kernels that the backend has or can compile.
   void openPipeline();
+  void bindTables(const CompiledScene& of) const;  // of the scene, that this session reads
   uint32_t wantedFeatures() const;
   // Opens with another configuration. If that throws, restarts the old configuration with a new
   // history.
@@ -120,17 +120,10 @@ void Session::Impl::open() {
                           config.height));
   }
   needed = scene->features(config.multiscatter);
-  if (config.lightChoice == kLightChoiceTree && scene->lampCount() > 1) {
-    if (scene->lampCount() > kMostLampsOfTree) {
-      failUsage(
-          fmt::format("light_choice tree: scene {} has {} lamps, more than {}: power would be "
-                      "right",
-                      scene->source().name, scene->lampCount(), kMostLampsOfTree));
-    }
-    needed |= rl::RL_FEATURE_LIGHT_TREE;
-  }
+  const bool hasLightTree = config.lightChoice == kLightChoiceTree && scene->lampCount() > 1;
+  if (hasLightTree) needed |= rl::RL_FEATURE_LIGHT_TREE;
   const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
-  if (multiscatter) scene->bindGgxAlbedo();
+  bindTables(*scene);
   beforeFrame.reset();
   pipeline.reset();
   backend.reset();
@@ -163,10 +156,16 @@ void Session::Impl::open() {
   f.components = config.components;
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
   f.multiscatter = multiscatter ? 1u : 0u;
-  f.lightTree = (needed & rl::RL_FEATURE_LIGHT_TREE) != 0 ? 1u : 0u;
+  f.lightTree = hasLightTree ? 1u : 0u;
   useParameters();
   lastFrame = f;
   lastScene = scene;
+}
+
+void Session::Impl::bindTables(const CompiledScene& of) const {
+  if (!config.renders) return;
+  if ((needed & rl::RL_FEATURE_MULTISCATTER) != 0) of.bindGgxAlbedo();
+  if ((needed & rl::RL_FEATURE_LIGHT_TREE) != 0) of.bindLightTree();
 }
 
 uint32_t Session::Impl::wantedFeatures() const {
@@ -355,7 +354,7 @@ void Session::setScene(std::shared_ptr<const CompiledScene> scene) {
                     "show it",
                     scene->source().name, m.scene->source().name));
   }
-  if (m.frame.multiscatter != 0) scene->bindGgxAlbedo();
+  m.bindTables(*scene);
   m.backend->setScene(scene);
   m.scene = std::move(scene);
 }

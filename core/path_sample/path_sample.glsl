@@ -117,8 +117,9 @@ RL_FN float pathSmoothWeight(RL_IN(PathSample) p, RL_IN(Surface) x1, RL_IN(Light
   if (c.isDelta) return 1.0f;
   if (pathLightKind(p) == RL_LIGHT_ENVIRONMENT)
     return lightMisWeight(lightPdfOfEnvironment(c.dirW), pdfBsdf);
-  Light light = recordLight(recordInstance(p.id.instance).firstLight + p.id.primitive);
-  float perArea = lightProbability(light, lightReceiverAt(x1)) * light.areaInverse;
+  uint record = recordInstance(p.id.instance).firstLight + p.id.primitive;
+  Light light = recordLight(record);
+  float perArea = lightProbability(record, light, lightReceiverAt(x1)) * light.areaInverse;
   return lightMisWeight(perArea * rlSafeDivide(1.0f, c.geometry), pdfBsdf);
 }
 

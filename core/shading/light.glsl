@@ -19,6 +19,20 @@ RL_FN uint lightSelect(RL_IN(Rng) rng) {
   return lightAt(columnBits, aliasBits);
 }
 
+// Selects a light for a receiver, with its probability. 0: a lamp that sends it no light.
+RL_FN uint lightDraw(RL_IN(Rng) rng, RL_IN(LightReceiver) receiver, RL_OUT(float) probability) {
+  uint record = 0u;
+  if (!lightTreeIsUsed() || gScene.lampShare < 1.0f) {
+    record = lightSelect(rng);
+    Light light = recordLight(record);
+    probability = light.pmf;
+    if (!lightTreeIsUsed() || !lightIsLamp(light.kind)) return record;
+  }
+  uint lamp = lightTreeDraw(rng, receiver, probability);
+  probability *= gScene.lampShare;
+  return lamp != RL_INVALID ? lamp : record;
+}
+
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 
 // A point of a light. `bary`: on a triangle; `dirW`: to the environment. The density is per area
@@ -78,17 +92,10 @@ RL_FN LightReceiver lightReceiverAt(RL_IN(Surface) s) {
 RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng, RL_IN(LightReceiver) receiver) {
   uint uBits = rngBits(rng, RL_DIM_LIGHT_U);
   uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
-  uint record = lightSelect(rng);
+  float pmf = 0.0f;
+  uint record = lightDraw(rng, receiver, pmf);
   Light light = recordLight(record);
-  if (RL_HAS(RL_FEATURE_LIGHT_TREE) && gFrame.lightTree != 0u && lightIsLamp(light.kind)) {
-    float probability;
-    uint lamp = lightTreeDraw(rng, receiver, probability);
-    if (lamp != RL_INVALID) {
-      record = lamp;
-      light = recordLight(lamp);
-    }
-    light.pmf = gScene.lampShare * probability;
-  }
+  light.pmf = pmf;
   vec2 bary = vec2(rngUnit(uBits), rngUnit(vBits));
   vec3 dirW = vec3(0.0f, 0.0f, 0.0f);
   float density = 1.0f;
@@ -171,7 +178,7 @@ RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(LightReceiver) receiver, RL_IN(
   Light light = recordLight(lightIndex);
   float cosLight = abs(dot(nGeoW, dirW));
   if (!(cosLight > 0.0f)) return 0.0f;
-  float perArea = lightProbability(light, receiver) * light.areaInverse;
+  float perArea = lightProbability(lightIndex, light, receiver) * light.areaInverse;
   return perArea * distance * distance / cosLight;
 }
 

@@ -48,6 +48,34 @@ TEST_P(LightSwitch, PathRendersWhatAFreshSessionDoes) {
   EXPECT_FALSE(isSame(live, fresh)) << "it is on again";
 }
 
+// Clusters of lamps as well: there are more of these than clusters. A switch builds the hierarchy
+// of the other scene.
+TEST_P(LightSwitch, BothMachinesDrawTheSameLampsOfAHierarchy) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  const Reads reads(GetParam());
+  const auto hall = [](double factor) {
+    return CompiledScene::build(
+        withLightFactor(makeBuiltinScene("many-lights?lamps=2000"), "lamps-0-0", factor));
+  };
+  const auto on = hall(1.0), off = hall(0.0);
+  const auto openByHierarchy = [&](const Machine& where) {
+    Combination what;
+    what.integrator = "path";
+    SessionConfig config = configOf(what, where, 48, 32, kSeed);
+    config.lightChoice = kLightChoiceTree;
+    return Session(on, config);
+  };
+  Session host = openByHierarchy(kCpuBvh), device = openByHierarchy(kVulkanSpecialised);
+  for (const auto& scene : {on, off}) {
+    host.setScene(scene);
+    device.setScene(scene);
+    host.frame();
+    device.frame();
+    const FrameDifference difference = countDifferent(host.radiance(), device.radiance());
+    EXPECT_LE(difference.share(), 0.01) << difference.text();
+  }
+}
+
 TEST_P(LightSwitch, TheHistoryGoesOn) {
   if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
   const Reads reads(GetParam());

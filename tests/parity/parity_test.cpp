@@ -133,6 +133,7 @@ struct PathCase {
   double maxDifferentShare;  // fraction of pixels beyond kMaxRelativeDifference
   double maxMeanDifference;  // relative, of the whole image
   uint32_t multiscatter;     // FrameData::multiscatter
+  uint32_t lightTree;        // FrameData::lightTree
 };
 
 class PathParity : public Parity, public testing::WithParamInterface<PathCase> {};
@@ -153,6 +154,8 @@ TEST_P(PathParity, SameSeedSameImage) {
   frame.previousCamera = frame.camera;
   frame.multiscatter = c.multiscatter;
   if (c.multiscatter != 0u) scene->bindGgxAlbedo();
+  frame.lightTree = c.lightTree;
+  if (c.lightTree != 0u) scene->bindLightTree();
   const size_t pixels = size_t{frame.width} * frame.height;
   const rl::PathKernelParams params{};
   std::vector<rl::vec3> host(pixels), embree(pixels);
@@ -192,8 +195,9 @@ TEST_P(PathParity, SameSeedSameImage) {
 }
 
 const PathCase kPathCases[] = {
-    {"EveryFeature", makeEverythingScene, 0.02, 1e-4, 0u},
-    {"EveryFeatureMultiscatter", makeEverythingScene, 0.02, 1e-4, 1u},
+    {"EveryFeature", makeEverythingScene, 0.02, 1e-4, 0u, 0u},
+    {"EveryFeatureMultiscatter", makeEverythingScene, 0.02, 1e-4, 1u, 0u},
+    {"EveryFeatureHierarchyOfLamps", makeEverythingScene, 0.02, 1e-4, 0u, 1u},
 };
 INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases),
                          [](const auto& test) { return test.param.name; });

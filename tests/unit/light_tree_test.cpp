@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/error.h"
 #include "core/frame/session.h"
 #include "core/scene/compiled/light_tree.h"
 #include "tests/unit/dialect_context.h"
@@ -47,24 +46,31 @@ struct Lamps {
   LightTree tree;
   Dialect<> d;
 
-  explicit Lamps(std::vector<rl::Light> all) : lights(std::move(all)) {
+  explicit Lamps(std::vector<rl::Light> all, size_t clusters = kClustersOfLamps)
+      : lights(std::move(all)) {
     double sum = 0.0;
     for (const rl::Light& light : lights) sum += light.pmf > 0.0f ? double(light.pmf) : 0.0;
     for (rl::Light& light : lights) light.pmf = static_cast<float>(light.pmf / sum);
-    tree = buildLightTree(lights);
+    tree = buildLightTree(lights, clusters);
     d.scene.lights.data = lights.data();
     d.scene.lightTree.data = tree.nodes.data();
-    d.scene.lampShare = tree.share;
+    d.scene.lightTrails.data = tree.trails.data();
+    d.scene.lampShare = 1.0f;
     d.frame.lightTree = 1;
   }
-  // The lamp at the end of a lamp's parts.
-  uint32_t ledTo(uint32_t trail) {
-    uint32_t link = 0;
+  // Whether a lamp's parts lead to it, or to a cluster that holds it.
+  bool isLedTo(uint32_t lamp) {
+    uint32_t trail = tree.trails[2 * size_t(lamp)], link = 0;
     do {
       link = d->lightNodeLink(link, trail & 3u);
       trail >>= 2;
     } while ((link & rl::RL_LIGHT_NODE_LEAF) == 0);
-    return link & ~rl::RL_LIGHT_NODE_LEAF;
+    const uint32_t where = link & rl::RL_LIGHT_NODE_WHERE;
+    if ((link & rl::RL_LIGHT_NODE_CLUSTER) != rl::RL_LIGHT_NODE_CLUSTER) return where == lamp;
+    const glm::uvec4* cluster = &tree.nodes.at(where);
+    for (uint32_t i = 1; i <= cluster->x; ++i)
+      if (cluster[i].y == lamp) return true;
+    return false;
   }
 };
 
@@ -106,24 +112,22 @@ bool reaches(const rl::Light& light, const rl::LightReceiver& receiver, Inputs& 
 }
 
 TEST(LightTree, TurnsLeadToEachLamp) {
-  for (const uint32_t count : {1u, 2u, 3u, 17u, 1000u}) {
+  for (const uint32_t count : {1u, 2u, 3u, 17u, 1000u, 5000u}) {
     Lamps lamps(randomLamps(count, count));
-    EXPECT_EQ(lamps.tree.lamps, count);
-    EXPECT_NEAR(lamps.tree.share, 1.0f, 1e-5f);
-    for (uint32_t i = 0; i < count; ++i) ASSERT_EQ(lamps.ledTo(lamps.lights[i].trail), i);
+    for (uint32_t i = 0; i < count; ++i) ASSERT_TRUE(lamps.isLedTo(i)) << i;
   }
 }
 
 // Ten receivers draw lamps with the probabilities that lightTreeProbability() gives; what
 // is missing to 1 is drawn as no lamp at all.
-TEST(LightTree, DrawsHaveTheirProbabilities) {
-  Lamps lamps(randomLamps(60, 7));
+void expectDrawsHaveTheirProbabilities(size_t clusters) {
+  Lamps lamps(randomLamps(60, 7), clusters);
   Inputs inputs(11);
   for (uint32_t r = 0; r < 10; ++r) {
     const rl::LightReceiver receiver = randomReceiver(inputs);
     std::vector<double> probabilities;
-    for (const rl::Light& light : lamps.lights)
-      probabilities.push_back(lamps.d->lightTreeProbability(light.trail, receiver));
+    for (uint32_t i = 0; i < lamps.lights.size(); ++i)
+      probabilities.push_back(lamps.d->lightTreeProbability(i, receiver));
     const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
     EXPECT_LE(sum, 1.0 + 1e-5);
     if (sum == 0.0) {  // it looks away from all of them
@@ -150,14 +154,18 @@ TEST(LightTree, DrawsHaveTheirProbabilities) {
   }
 }
 
+TEST(LightTree, DrawsHaveTheirProbabilities) { expectDrawsHaveTheirProbabilities(60); }
+TEST(LightTree, DrawsFromClustersHaveTheirProbabilities) { expectDrawsHaveTheirProbabilities(9); }
+
 TEST(LightTree, NoLampInReachIsMissedAndOthersAreLeftOut) {
   Lamps lamps(randomLamps(300, 5));
   Inputs inputs(21);
   uint32_t left = 0, reached = 0;
   for (uint32_t r = 0; r < 100; ++r) {
     const rl::LightReceiver receiver = randomReceiver(inputs);
-    for (const rl::Light& light : lamps.lights) {
-      const float probability = lamps.d->lightTreeProbability(light.trail, receiver);
+    for (uint32_t lamp = 0; lamp < lamps.lights.size(); ++lamp) {
+      const rl::Light& light = lamps.lights[lamp];
+      const float probability = lamps.d->lightTreeProbability(lamp, receiver);
       bool isReached = false;
       for (int i = 0; i < 8; ++i) isReached |= reaches(light, receiver, inputs);
       if (isReached) {
@@ -181,8 +189,8 @@ TEST(LightTree, NearLampsAreAskedMoreOften) {
   }
   Lamps lamps(two);
   const rl::LightReceiver floor{glm::vec3(0.0f), 0u, glm::vec3(0.0f, 0.0f, 1.0f)};
-  const float near = lamps.d->lightTreeProbability(lamps.lights[0].trail, floor);
-  const float far = lamps.d->lightTreeProbability(lamps.lights[1].trail, floor);
+  const float near = lamps.d->lightTreeProbability(0, floor);
+  const float far = lamps.d->lightTreeProbability(1, floor);
   EXPECT_NEAR(near + far, 1.0f, 1e-6f);
   // 1/2 cos / d^2 of each: 0.707 / 2 against 0.0995 / 101.
   EXPECT_NEAR(near / far, (std::sqrt(0.5) / 2.0) / (std::sqrt(1.0 / 101.0) / 101.0), 1.0);
@@ -204,26 +212,23 @@ TEST(LightTree, ParallelLampsKeepTheirDirection) {
   const rl::LightReceiver behind{-100.0f * axis, 1u, axis};
   const rl::LightReceiver before{100.0f * axis, 1u, axis};
   float probability = 0.0f;
-  const glm::vec4 none = lamps.d->lightNodeImportance(0, behind);
-  EXPECT_EQ(none, glm::vec4(0.0f));
+  const rl::Lanes none = lamps.d->lightNodeImportance(0, behind);
+  for (uint32_t i = 0; i < 4; ++i) EXPECT_EQ(rl::lanesAt(none, i), 0.0f);
   EXPECT_NE(lamps.d->lightTreeDraw(lamps.d->rngInit(1, 1, 1), before, probability), rl::RL_INVALID);
 }
 
-// Beyond the limit no hierarchy is built, and a session that asks for one is refused.
-TEST(LightTree, TooManyLampsAreRefused) {
-  std::vector<rl::Light> many(kMostLampsOfTree + 1);
-  for (rl::Light& light : many) {
-    light.kind = rl::RL_LIGHT_POINT;
-    light.pmf = 1e-6f;
-  }
-  EXPECT_TRUE(buildLightTree(many).nodes.empty());
-  SessionConfig config;
-  config.lightChoice = kLightChoiceTree;
-  config.renders = false;
+// Only sessions that choose by the hierarchy build it.
+TEST(LightTree, IsBuiltWhereItIsAskedFor) {
   const auto scene = CompiledScene::build(makeBuiltinScene("quad-light?triangles=2e5"));
-  EXPECT_THROW(Session(scene, config), Error);
+  SessionConfig config;
+  config.width = config.height = 8;
   config.lightChoice = kLightChoicePower;
-  EXPECT_NO_THROW(Session(scene, config));
+  Session byPower(scene, config);
+  EXPECT_EQ(scene->data().lightTree.data, nullptr);
+  config.lightChoice = kLightChoiceTree;
+  Session byTree(scene, config);
+  EXPECT_NE(scene->data().lightTree.data, nullptr);
+  EXPECT_EQ(scene->data().lampShare, 1.0f);
 }
 
 TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {
@@ -239,11 +244,10 @@ TEST(LightTree, LampsWithoutPowerAndLampsInOnePlaceDoNoHarm) {
   }
   same[7].pmf = 0.0f;
   Lamps lamps(std::move(same));
-  EXPECT_EQ(lamps.tree.lamps, 100'000u) << "those that are off count";
   const rl::LightReceiver inside{glm::vec3(1.0f), 0u, glm::vec3(0.0f, 0.0f, 1.0f)};
   for (const uint32_t i : {0u, 50'000u, 99'999u}) {
-    EXPECT_EQ(lamps.ledTo(lamps.lights[i].trail), i);
-    EXPECT_NEAR(lamps.d->lightTreeProbability(lamps.lights[i].trail, inside) * 1e5, 1.0, 0.5);
+    EXPECT_TRUE(lamps.isLedTo(i));
+    EXPECT_NEAR(lamps.d->lightTreeProbability(i, inside) * 1e5, 1.0, 0.5);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "core/scene/compiled/coarse_vertices.h"
 #include "core/scene/compiled/ggx_albedo.h"
 #include "core/scene/compiled/light_table.h"
+#include "core/scene/compiled/light_tree.h"
 #include "core/scene/compiled/material_records.h"
 #include "core/scene/compiled/split_triangles.h"
 #include "core/scene/plate.h"
@@ -47,8 +48,9 @@ uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
 struct CompiledScene::Impl {
   Scene scene;
   uint32_t features = 0;
-  std::once_flag ggxAlbedoBound, bvhBound;
+  std::once_flag ggxAlbedoBound, bvhBound, lightTreeBound;
   Bvh bvh;
+  LightTree lightTree;
   glm::dvec3 origin{0.0};
   std::vector<std::string> warnings;
   std::vector<glm::vec3> positions, normals;
@@ -285,8 +287,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.srgbToLinear.data = records.srgb.data();
   data.lights.data = lights.lights.data();
   data.lightAlias.data = lights.alias.data();
-  data.lightTree.data = lights.tree.nodes.data();
-  data.lampShare = lights.tree.share;
+  data.lampShare = lights.lampShare;
   data.lightCount = static_cast<uint32_t>(lights.alias.size());  // 0: all lights are off
   data.environment.data = lights.environment.data();
   data.environmentAlias.data = lights.environmentAlias.data();
@@ -358,6 +359,15 @@ const Bvh& CompiledScene::bindBvh() const {
   return m.bvh;
 }
 
+void CompiledScene::bindLightTree() const {
+  Impl& m = *impl_;
+  std::call_once(m.lightTreeBound, [&] {
+    m.lightTree = buildLightTree(m.lights.lights);
+    m.data.lightTree.data = m.lightTree.nodes.data();
+    m.data.lightTrails.data = m.lightTree.trails.data();
+  });
+}
+
 BvhInput CompiledScene::bvhInput() const {
   const Impl& m = *impl_;
   return {m.positions, m.triangles, m.geometries, m.instances};
@@ -386,7 +396,8 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.srgbToLinear, m.records.srgb.size());
   move(placed.lights, m.lights.lights.size());
   move(placed.lightAlias, m.lights.alias.size());
-  move(placed.lightTree, m.lights.tree.nodes.size());
+  move(placed.lightTree, m.lightTree.nodes.size());
+  move(placed.lightTrails, m.lightTree.trails.size());
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.closureParameters, m.records.closureParameters.size());
@@ -400,7 +411,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
 size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }
-size_t CompiledScene::lampCount() const { return impl_->lights.tree.lamps; }
+size_t CompiledScene::lampCount() const { return impl_->lights.lamps; }
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
 void* CompiledScene::embreeScene() const { return impl_->top; }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
@@ -454,7 +465,8 @@ size_t CompiledScene::bytes() const {
          of(i.triangles) + of(i.geometries) + of(i.instances) + of(i.records.materials) +
          of(i.records.closureParameters) + of(i.records.textures) + of(i.records.texels) +
          of(i.records.srgb) + of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
-         of(i.lights.environmentAlias) + of(i.lights.tree.nodes) + of(i.bodies.media);
+         of(i.lights.environmentAlias) + of(i.lightTree.nodes) + of(i.lightTree.trails) +
+         of(i.bodies.media);
 }
 
 }  // namespace restlab

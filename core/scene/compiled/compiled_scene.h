@@ -16,7 +16,7 @@ namespace restlab {
 class CompiledScene {
  public:
   // Recentres in double precision, bakes meshes used once into world space, builds the light table
-  // (selection by power) with its hierarchy and the environment's alias table. Adds warnings
+  // (selection by power) and the environment's alias table. Adds warnings
   // (zero-area lights, no light, vertices that float32 rounds:
   // core/scene/compiled/coarse_vertices.h).
   static std::shared_ptr<const CompiledScene> build(Scene scene);
@@ -33,6 +33,9 @@ class CompiledScene {
   // Makes SceneData::bvh and bvhRoots point to the project's own hierarchy, for sessions
   // that trace it; built at the first call. Returns it.
   const Bvh& bindBvh() const;
+  // Makes SceneData::lightTree and lightTrails point to the hierarchy of lamps, for sessions that
+  // choose lamps by it; built at the first call.
+  void bindLightTree() const;
   BvhInput bvhInput() const;  // input of hierarchy builders; valid as long as this object
   // Returns data() for a device with its own memory: every address is replaced by what `place`
   // returns for the bytes there (0 for an empty buffer). Includes the project's own hierarchy if it

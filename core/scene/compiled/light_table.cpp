@@ -116,6 +116,20 @@ std::vector<double> withFairShares(const Weights& weights) {
   return fair;
 }
 
+void countLamps(const Weights& weights, LightTable& table) {
+  double lamps = 0.0;
+  bool isAll = true;
+  for (size_t i = 0; i < weights.values.size(); ++i) {
+    if (weights.kinds[i] == kLamps) {
+      ++table.lamps;
+      lamps += double(table.alias[i].pmf);
+    } else if (weights.values[i] > 0.0) {
+      isAll = false;
+    }
+  }
+  table.lampShare = isAll ? 1.0f : static_cast<float>(lamps);
+}
+
 // Appends the triangles of an emitting instance with their power (W, up to a common factor).
 size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
                     LightTable& table, Weights& weights) {
@@ -268,7 +282,7 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
   if (!shares.empty()) {
     table.alias = buildAliasTable(shares, shares.size());
     for (size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
-    table.tree = buildLightTree(table.lights);
+    countLamps(weights, table);
   }
   return table;
 }

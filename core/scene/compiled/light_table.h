@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/dialect/types.h"
-#include "core/scene/compiled/light_tree.h"
 #include "core/scene/scene.h"
 
 namespace restlab {
@@ -16,7 +15,8 @@ struct LightTable {
   // reservoirs identify lights by index.
   std::vector<rl::Light> lights;
   std::vector<rl::AliasEntry> alias;  // one per light; empty if none shines
-  LightTree tree;
+  size_t lamps = 0;                   // triangles, points and spots, also those that are off
+  float lampShare = 0.0f;  // probability that `alias` gives one of them; 1: nothing else shines
   std::vector<glm::vec3> environment;  // scaled radiance
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;

@@ -8,12 +8,16 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/scene/compiled/alias_table.h"
+
 namespace restlab {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr size_t kBins = 12;
+// Lamps that the heuristic looks at, of a larger set.
+constexpr uint32_t kLooksAt = 512;
 
 // Directions within an angle of an axis: normals of emitters, and how far from a normal they emit.
 struct Cone {
@@ -119,67 +123,97 @@ float above(double v) {
   return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity());
 }
 
+struct Range {
+  uint32_t first, end;
+  uint32_t count() const { return end - first; }
+};
+
 class Builder {
  public:
-  explicit Builder(std::vector<rl::Light>& lights) : lights_(lights) {
+  Builder(const std::vector<rl::Light>& lights, size_t clusters) : lights_(lights) {
     for (uint32_t i = 0; i < lights.size(); ++i) {
       const uint32_t kind = lights[i].kind;
       const bool isLamp =
           kind == rl::RL_LIGHT_TRIANGLE || kind == rl::RL_LIGHT_POINT || kind == rl::RL_LIGHT_SPOT;
-      if (isLamp) ++lamps_;
       if (!isLamp || !(lights[i].pmf > 0.0f)) continue;
       order_.push_back(i);
       bounds_.push_back(boundsOf(lights[i]));
-      share_ += double(lights[i].pmf);
     }
-    if (order_.empty() || order_.size() > kMostLampsOfTree) return;
+    if (order_.empty()) return;
+    trails_.resize(2 * lights.size());
     places_.resize(order_.size());
     std::iota(places_.begin(), places_.end(), 0u);
+    mostOfCluster_ = static_cast<uint32_t>(std::max(order_.size() / clusters, size_t{1}));
     writeNode({0, uint32_t(places_.size())}, 0, 0);
+    writeClusters();
   }
 
-  LightTree take() { return {std::move(nodes_), lamps_, static_cast<float>(share_)}; }
+  LightTree take() { return {std::move(nodes_), std::move(trails_)}; }
 
  private:
-  Bounds boundsOfRange(uint32_t first, uint32_t end) const {
-    Bounds all;
-    for (uint32_t i = first; i < end; ++i) all = joined(all, bounds_[places_[i]]);
-    return all;
-  }
-
-  struct Range {
-    uint32_t first, end;
-    uint32_t count() const { return end - first; }
-  };
-
-  // Appends the node of lamps that `depth` nodes lead to, and all below it. Returns its number.
-  uint32_t writeNode(const Range& lamps, uint32_t depth, uint32_t trail) {
+  // Appends the node of lamps that `depth` nodes lead to, and all below it. Returns its bounds.
+  Bounds writeNode(const Range& lamps, uint32_t depth, uint32_t trail) {
     const auto number = static_cast<uint32_t>(nodes_.size() / rl::RL_LIGHT_NODE_UVEC4S);
     nodes_.resize(nodes_.size() + rl::RL_LIGHT_NODE_UVEC4S, glm::uvec4(0));
     std::vector<Range> parts;
     for (const Range& half : halvesOf(lamps, 2 * depth)) {
       for (const Range& quarter : halvesOf(half, 2 * depth + 1)) parts.push_back(quarter);
     }
+    Bounds all;
     for (uint32_t part = 0; part < parts.size(); ++part) {
       const uint32_t below = trail | (part << (2 * depth));
       uint32_t link = 0;
-      if (parts[part].count() == 1) {
-        const uint32_t light = order_[places_[parts[part].first]];
-        link = rl::RL_LIGHT_NODE_LEAF | light;
-        lights_[light].trail = below;
+      Bounds bounds;
+      if (parts[part].count() <= mostOfCluster_) {
+        link = linkOfLamps(number, part, parts[part], below);
+        for (uint32_t i = parts[part].first; i < parts[part].end; ++i)
+          bounds = joined(bounds, bounds_[places_[i]]);
       } else {
-        link = writeNode(parts[part], depth + 1, below);
+        link = static_cast<uint32_t>(nodes_.size() / rl::RL_LIGHT_NODE_UVEC4S);
+        bounds = writeNode(parts[part], depth + 1, below);
       }
-      writePart(number, part, boundsOfRange(parts[part].first, parts[part].end), link);
+      writePart(number, part, bounds, link);
+      all = joined(all, bounds);
     }
-    return number;
+    return all;
   }
 
-  // One range where there is one lamp alone.
+  // One range where the lamps are one cluster.
   std::vector<Range> halvesOf(const Range& lamps, uint32_t turns) {
-    if (lamps.count() == 1) return {lamps};
+    if (lamps.count() <= mostOfCluster_) return {lamps};
     const uint32_t middle = split(lamps.first, lamps.end, turns);
     return {{lamps.first, middle}, {middle, lamps.end}};
+  }
+
+  // The lamp, or the cluster of several, whose place is not known before all nodes are written.
+  uint32_t linkOfLamps(uint32_t node, uint32_t part, const Range& lamps, uint32_t trail) {
+    for (uint32_t i = lamps.first; i < lamps.end; ++i) {
+      const uint32_t light = order_[places_[i]];
+      trails_[2 * size_t(light)] = trail;
+      trails_[2 * size_t(light) + 1] = std::bit_cast<uint32_t>(1.0f);
+    }
+    if (lamps.count() == 1) return rl::RL_LIGHT_NODE_LEAF | order_[places_[lamps.first]];
+    clusters_.push_back({node, part, lamps});
+    return rl::RL_LIGHT_NODE_CLUSTER;
+  }
+
+  void writeClusters() {
+    for (const Cluster& cluster : clusters_) {
+      const auto where = static_cast<uint32_t>(nodes_.size());
+      const size_t links = size_t(cluster.node) * rl::RL_LIGHT_NODE_UVEC4S + 11;
+      nodes_[links][int(cluster.part)] = rl::RL_LIGHT_NODE_CLUSTER | where;
+      const Range& lamps = cluster.lamps;
+      std::vector<double> powers;
+      const auto lightAt = [&](uint32_t i) { return order_[places_[lamps.first + i]]; };
+      for (uint32_t i = 0; i < lamps.count(); ++i)
+        powers.push_back(double(lights_[lightAt(i)].pmf));
+      const std::vector<rl::AliasEntry> alias = buildAliasTable(powers, powers.size());
+      nodes_.emplace_back(lamps.count(), 0u, 0u, 0u);
+      for (uint32_t i = 0; i < lamps.count(); ++i) {
+        nodes_.emplace_back(alias[i].keep, lightAt(i), lightAt(alias[i].other), 0u);
+        trails_[2 * size_t(lightAt(i)) + 1] = std::bit_cast<uint32_t>(alias[i].pmf);
+      }
+    }
   }
 
   void writePart(uint32_t node, uint32_t part, const Bounds& b, uint32_t link) {
@@ -207,8 +241,9 @@ class Builder {
   uint32_t split(uint32_t first, uint32_t end, uint32_t turns) {
     const uint32_t half = first + (end - first) / 2;
     const uint32_t levels = uint32_t(std::bit_width(end - first - 1u));
+    const uint32_t step = std::max((end - first) / kLooksAt, 1u);
     glm::dvec3 low(1e300), high(-1e300);
-    for (uint32_t i = first; i < end; ++i) {
+    for (uint32_t i = first; i < end; i += step) {
       low = glm::min(low, bounds_[places_[i]].center());
       high = glm::max(high, bounds_[places_[i]].center());
     }
@@ -219,7 +254,7 @@ class Builder {
     const bool isFree = turns + levels + 1 < 2 * rl::RL_LIGHT_TREE_DEPTH;
     for (int a = 0; isFree && a < 3; ++a) {
       if (!(size[a] > 0.0)) continue;
-      const double cost = bestOfAxis(first, end, a, low[a], size[a], longest, place, best);
+      const double cost = bestOfAxis({first, end}, step, a, low[a], size[a], longest, place, best);
       if (cost < best) {
         best = cost;
         axis = a;
@@ -243,16 +278,16 @@ class Builder {
   }
 
   static size_t binOf(double v, double low, double size) {
-    return std::min(size_t((v - low) / size * double(kBins)), kBins - 1);
+    return size_t(std::clamp((v - low) / size * double(kBins), 0.0, double(kBins - 1)));
   }
 
   // Least cost over the borders of an axis' bins; sets `place` to the first bin behind the border
   // if it is below `best`.
-  double bestOfAxis(uint32_t first, uint32_t end, int axis, double low, double size, double longest,
-                    double& place, double best) const {
+  double bestOfAxis(const Range& lamps, uint32_t step, int axis, double low, double size,
+                    double longest, double& place, double best) const {
     const double pad = 0.01 * longest;
     std::array<Bounds, kBins> bins;
-    for (uint32_t i = first; i < end; ++i) {
+    for (uint32_t i = lamps.first; i < lamps.end; i += step) {
       const Bounds& b = bounds_[places_[i]];
       Bounds& bin = bins[binOf(b.center()[axis], low, size)];
       bin = joined(bin, b);
@@ -277,17 +312,25 @@ class Builder {
     return least;
   }
 
-  std::vector<rl::Light>& lights_;
+  struct Cluster {
+    uint32_t node, part;
+    Range lamps;
+  };
+
+  const std::vector<rl::Light>& lights_;
   std::vector<uint32_t> order_;   // lights of the hierarchy
   std::vector<Bounds> bounds_;    // of each of them
   std::vector<uint32_t> places_;  // their order in the hierarchy
   std::vector<glm::uvec4> nodes_;
-  size_t lamps_ = 0;
-  double share_ = 0.0;
+  std::vector<uint32_t> trails_;
+  std::vector<Cluster> clusters_;
+  uint32_t mostOfCluster_ = 1;
 };
 
 }  // namespace
 
-LightTree buildLightTree(std::vector<rl::Light>& lights) { return Builder(lights).take(); }
+LightTree buildLightTree(const std::vector<rl::Light>& lights, size_t clusters) {
+  return Builder(lights, clusters).take();
+}
 
 }  // namespace restlab

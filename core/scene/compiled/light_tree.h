@@ -8,19 +8,19 @@
 
 namespace restlab {
 
-// Beyond so many lamps there is no hierarchy: it takes a second to build for these.
-constexpr size_t kMostLampsOfTree = size_t{1} << 17;
+// The hierarchy parts lamps down to about so many clusters, and power chooses within one: a draw
+// takes as long with 10^6 lamps as with these (docs/decisions/hierarchy-of-lamps.md).
+constexpr size_t kClustersOfLamps = 1024;
 
 struct LightTree {
-  // RL_LIGHT_NODE_UVEC4S each, the root first. Empty: no lamp shines, or there are too many.
+  // RL_LIGHT_NODE_UVEC4S a node, the root first, then clusters. Empty: no lamp shines.
   std::vector<glm::uvec4> nodes;
-  size_t lamps = 0;    // triangles, points and spots, also those that are off
-  float share = 0.0f;  // probability that the alias table gives a lamp of the hierarchy
+  std::vector<uint32_t> trails;  // SceneData::lightTrails
 };
 
-// Builds the hierarchy over triangles, points and spots of positive probability in the alias table,
-// and sets Light::trail of each: its part of each node from the root on, two bits a node, the
-// lowest first. Deterministic. No lamp is below more than RL_LIGHT_TREE_DEPTH nodes.
-LightTree buildLightTree(std::vector<rl::Light>& lights);
+// Builds the hierarchy over triangles, points and spots of positive probability in the alias table.
+// A cluster has at most lamps / `clusters` of them, or one. Deterministic. No lamp is below more
+// than RL_LIGHT_TREE_DEPTH nodes.
+LightTree buildLightTree(const std::vector<rl::Light>& lights, size_t clusters = kClustersOfLamps);
 
 }  // namespace restlab
