@@ -9,6 +9,7 @@ target_sources(rl_core PRIVATE
   scene/closure_table/table_files.cpp
   scene/content_hash.cpp
   scene/textures/cube_map.cpp
+  scene/textures/daylight.cpp
   scene/textures/environment.cpp
   scene/textures/hdr_decode.cpp
   scene/textures/hdr_header.cpp

@@ -26,4 +26,5 @@ set(RL_SCENE_TESTS
   scene/scene_file_test.cpp
   scene/scene_origin_test.cpp
   ${RL_BUILTIN_TESTS}
+  scene/daylight_test.cpp
 )

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/content_hash.h"
+#include "core/scene/textures/daylight.h"
 
 namespace restlab {
 namespace fs = std::filesystem;
@@ -233,10 +234,11 @@ SceneCamera readCamera(const ConfigTable& table) {
 
 EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder) {
   const std::string file = table.getString("file", "");
-  if (file.empty() == !table.has("radiance"))
+  if (int(!file.empty()) + int(table.has("radiance")) + int(table.has("daylight")) != 1)
     table.fail("file",
-               "[environment] takes 'file', an .hdr or .exr, or 'radiance', a colour: one of them");
-  if (file.empty()) {
+               "[environment] takes 'file', an .hdr or .exr, or 'radiance', a colour, or "
+               "'daylight', its parameters: one of them");
+  if (table.has("radiance")) {
     EnvironmentMap map;
     map.source = "radiance";
     map.width = 2;
@@ -245,7 +247,11 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
     table.finish();
     return map;
   }
-  EnvironmentMap map = atPlace(table.place("file"), [&] { return loadEnvironment(folder / file); });
+  const std::string daylight = table.getString("daylight", "");
+  EnvironmentMap map = atPlace(table.place(file.empty() ? "daylight" : "file"), [&] {
+    return file.empty() ? daylightMap(parseDaylight("daylight?" + daylight))
+                        : loadEnvironment(folder / file);
+  });
   map.rotation = float(table.getNumber("rotation", 0.0, -360.0, 360.0) * std::numbers::pi / 180.0);
   map.scale = float(table.getNumber("scale", 1.0, 0.0, 1e9));
   table.finish();

@@ -15,6 +15,7 @@
 #include "core/frame/method_settings.h"
 #include "core/scene/compiled/light_factor.h"
 #include "core/scene/compiled/scene_origin.h"
+#include "core/scene/textures/daylight.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
@@ -67,7 +68,7 @@ bool assetsMissing(const SceneRequest& request, std::string& missing) {
   const std::string file = splitSceneSettings(request.scene).first;
   if (!isBuiltinScene(request.scene) && locate(file, request.suiteFolder).empty()) {
     missing = request.scene;
-  } else if (!request.environment.empty() &&
+  } else if (!request.environment.empty() && !isDaylightName(request.environment) &&
              locate(request.environment, request.suiteFolder).empty()) {
     missing = request.environment;
   }
@@ -76,6 +77,7 @@ bool assetsMissing(const SceneRequest& request, std::string& missing) {
 
 std::optional<EnvironmentMap> readEnvironment(const SceneRequest& request) {
   if (request.environment.empty()) return std::nullopt;
+  if (isDaylightName(request.environment)) return daylightMap(parseDaylight(request.environment));
   const std::string found = locate(request.environment, request.suiteFolder);
   if (found.empty()) {
     std::error_code status;
