@@ -121,6 +121,9 @@ class Backend {
   // (CompiledScene::differsInLightAlone). Keeps buffers and waits for frames under way.
   virtual void setScene(std::shared_ptr<const CompiledScene> scene) = 0;
 
+  // Buffer that later frames see as FrameData::drawnLights.
+  void tellDrawnLights(BufferId buffer) { drawnLights_ = buffer; }
+
   // Starts a frame: the passes one after another. Waits if framesInFlight() frames are under way
   // already.
   virtual void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) = 0;
@@ -136,6 +139,8 @@ class Backend {
   virtual std::string device() const = 0;      // description for reports
 
  protected:
+  BufferId drawnLights_ = kNoBuffer;
+
   bool isStopped() const { return framesStopped() || (isStopWanted_ && isStopWanted_()); }
 
  private:

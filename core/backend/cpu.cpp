@@ -181,7 +181,10 @@ class CpuBackend final : public Backend {
       addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
     rl::CpuKernelArgs args;
     args.scene = &scene_->data();
-    args.frame = &frame;
+    rl::FrameData seen = frame;
+    if (drawnLights_ != kNoBuffer)
+      seen.drawnLights.data = reinterpret_cast<uint32_t*>(buffers_[drawnLights_].data());
+    args.frame = &seen;
     args.buffers = addresses.data();
     args.params = pass.params.data();
     args.embreeScene = scene_->embreeScene();

@@ -264,7 +264,10 @@ class VulkanBackend final : public Backend {
   static size_t passOffset(size_t pass) { return kPassOffset + pass * kPassBytes; }
 
   void writeInputs(Slot& slot, const std::vector<PassRun>& passes, const rl::FrameData& frame) {
-    std::memcpy(slot.inputs.mapped, &frame, sizeof frame);
+    rl::FrameData seen = frame;
+    const uint64_t drawn = drawnLights_ == kNoBuffer ? 0 : buffers_[drawnLights_].address;
+    std::memcpy(&seen.drawnLights, &drawn, sizeof drawn);
+    std::memcpy(slot.inputs.mapped, &seen, sizeof seen);
     for (size_t i = 0; i < passes.size(); ++i) {
       std::vector<uint64_t> addresses;
       for (BufferId b : passes[i].buffers)

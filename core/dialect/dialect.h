@@ -63,6 +63,10 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
   }
   return before;
 }
+inline void markAt(uint* data, std::size_t i) {
+  const std::atomic_ref<uint> mark = atomicAt(data, i);
+  if (mark.load(std::memory_order_relaxed) == 0) mark.store(1, std::memory_order_relaxed);
+}
 
 }  // namespace rl
 
@@ -92,6 +96,7 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
   struct Name {         \
     T* data;            \
   };
+#define RL_IS_NULL(ref) ((ref).data == nullptr)
 // Minimum and maximum of two numbers that are not NaN. min() and max() also handle NaN, which costs
 // three instructions on some devices.
 #define RL_LESSER(a, b) ((a) < (b) ? (a) : (b))
@@ -117,6 +122,8 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
   ::rl::atomicAt((ref).data, i).fetch_add(value, std::memory_order_relaxed)
 #define RL_ATOMIC_MAX(ref, i, value) ::rl::atomicGreatest((ref).data, i, value)
 #define RL_ATOMIC_CAS(ref, i, expected, value) ::rl::atomicCas((ref).data, i, expected, value)
+// Sets a uint to 1 that several pixels may set. Reads first: most find it set.
+#define RL_MARK(ref, i) ::rl::markAt((ref).data, i)
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
@@ -133,9 +140,12 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
 #define RL_PROTO(declaration) declaration;
 #define RL_REF(Name, T) \
   layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T data[]; };
+#define RL_IS_NULL(ref) (uint64_t(ref) == 0ul)
 #define RL_ATOMIC_ADD(ref, i, value) atomicAdd((ref).data[i], value)
 #define RL_ATOMIC_MAX(ref, i, value) atomicMax((ref).data[i], value)
 #define RL_ATOMIC_CAS(ref, i, expected, value) atomicCompSwap((ref).data[i], expected, value)
+#define RL_MARK(ref, i) \
+  if ((ref).data[i] == 0u) (ref).data[i] = 1u
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

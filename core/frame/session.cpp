@@ -64,6 +64,7 @@ struct Session::Impl {
   size_t hostBytesPerPixel = 0;
   std::vector<BufferId> aovBuffers;
   bool isAovTraced = false;  // for the last frame
+  BufferId drawnLights = kNoBuffer;
   rl::FrameData lastFrame{};
   std::shared_ptr<const CompiledScene> lastScene;  // scene of the last frame
 
@@ -136,6 +137,8 @@ void Session::Impl::open() {
   if (!config.renders) return;
   if (!backend->compile(pipeline->kernels(), startup)) openPipeline();
   pipeline->allocate();
+  drawnLights = backend->allocate(sizeof(uint32_t) * std::max(scene->lightRecords(), size_t{1}));
+  backend->tellDrawnLights(drawnLights);
   pipeline->prepare(startup);
   radiance = Image(config.width, config.height);
   isRadianceRead = true;
@@ -453,6 +456,13 @@ Image Session::aov(const std::string& name) const {
     }
   }
   return image;
+}
+
+DrawnLights Session::drawnLights() const {
+  std::vector<uint32_t> words(impl_->scene->lightRecords());
+  if (!words.empty())
+    impl_->backend->read(impl_->drawnLights, words.data(), sizeof words[0] * words.size());
+  return restlab::drawnLights(*impl_->scene, words);
 }
 
 uint32_t Session::featuresNeeded() const { return impl_->needed; }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/backend/kernel_choice.h"
+#include "core/frame/drawn_lights.h"
 #include "core/frame/feature_names.h"
 #include "core/frame/integrator.h"
 #include "core/frame/transport_settings.h"
@@ -136,6 +137,8 @@ class Session {
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();  // without the layers of a method
 
+  // Lights that light samples were drawn from, since the session was opened or resized.
+  DrawnLights drawnLights() const;
   uint32_t featuresNeeded() const;
   uint32_t featuresUsed() const;  // by the kernels
   // Machine code of the kernels that were compiled for the scene; 0 where all are built in.

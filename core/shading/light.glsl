@@ -33,6 +33,11 @@ RL_FN uint lightDraw(RL_IN(Rng) rng, RL_IN(LightReceiver) receiver, RL_OUT(float
   return lamp != RL_INVALID ? lamp : record;
 }
 
+// Marks a light for FrameData::drawnLights.
+RL_FN void lightTellDrawn(uint record) {
+  if (!RL_IS_NULL(gFrame.drawnLights)) RL_MARK(gFrame.drawnLights, record);
+}
+
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 
 // A point of a light. `bary`: on a triangle; `dirW`: to the environment. The density is per area
@@ -94,6 +99,7 @@ RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng, RL_IN(LightReceiver) recei
   uint vBits = rngBits(rng, RL_DIM_LIGHT_V);
   float pmf = 0.0f;
   uint record = lightDraw(rng, receiver, pmf);
+  if (pmf > 0.0f) lightTellDrawn(record);
   Light light = recordLight(record);
   light.pmf = pmf;
   vec2 bary = vec2(rngUnit(uBits), rngUnit(vBits));

@@ -222,6 +222,8 @@ void render(RenderOptions options) {
   further.print();
   if (file) writeFiles(options, *file, aovs, findMethod(config));
   if (file) saySharesOfNames(findMethod(config), *file);
+  const std::string undrawn = session.drawnLights().text();
+  if (!undrawn.empty()) logInfo(undrawn);
   if (pixel) {
     const std::string text =
         options.json ? pixelJson(session, *pixel, rendered.frame + 1) : pixelText(session, *pixel);

@@ -48,6 +48,7 @@ list(APPEND RL_UNIT_TESTS
   surface_test.cpp
   surface_transform_test.cpp
   texture_test.cpp
+  drawn_lights_test.cpp
 )
 
 # They set macros for the kernels that they include.

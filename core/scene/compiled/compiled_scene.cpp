@@ -411,6 +411,14 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
 const std::vector<std::string>& CompiledScene::warnings() const { return impl_->warnings; }
 size_t CompiledScene::triangleCount() const { return impl_->triangles.size(); }
 size_t CompiledScene::instancedTriangleCount() const { return impl_->instancedTriangles; }
+size_t CompiledScene::lightRecords() const { return impl_->lights.lights.size(); }
+std::string CompiledScene::lightName(uint32_t record) const {
+  const LightTable& table = impl_->lights;
+  const rl::Light& light = table.lights.at(record);
+  if (light.kind == rl::RL_LIGHT_ENVIRONMENT) return "environment";
+  if (light.kind == rl::RL_LIGHT_TRIANGLE) return impl_->scene.instances.at(light.instance).name;
+  return impl_->scene.lights.at(table.punctual.at(record - table.firstPunctual)).name;
+}
 size_t CompiledScene::lampCount() const { return impl_->lights.lamps; }
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
 void* CompiledScene::embreeScene() const { return impl_->top; }

@@ -51,7 +51,10 @@ class CompiledScene {
   size_t triangleCount() const;           // unique
   size_t instancedTriangleCount() const;  // with every instance counted
   size_t emissiveTriangleCount() const;
-  size_t lampCount() const;    // emitting triangles, points and spots, also those that are off
+  size_t lampCount() const;     // emitting triangles, points and spots, also those that are off
+  size_t lightRecords() const;  // SceneData::lights, also those that are off
+  // Name of a light in the scene: of the mesh that emits, of a punctual light, or "environment".
+  std::string lightName(uint32_t record) const;
   size_t bytes() const;        // all buffers that kernels read
   size_t embreeBytes() const;  // Embree's copy of the triangles and its hierarchies
   void* embreeScene() const;   // RTCScene

@@ -246,7 +246,9 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
       instances[i].firstLight = first;
     }
   }
-  for (const PunctualLight& source : in.scene.lights) {
+  table.firstPunctual = static_cast<uint32_t>(table.lights.size());
+  for (uint32_t i = 0; i < in.scene.lights.size(); ++i) {
+    const PunctualLight& source = in.scene.lights[i];
     const double intensity = luminance(glm::dvec3(source.intensity));
     double power = 4.0 * kPi * intensity;
     if (source.kind == rl::RL_LIGHT_SPOT)
@@ -259,6 +261,7 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
           fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
       continue;
     }
+    table.punctual.push_back(i);
     table.lights.push_back(punctual(source, in.origin));
     weights.add(isSun ? kSuns : kLamps, power * double(source.lightFactor));
   }

@@ -16,7 +16,9 @@ struct LightTable {
   std::vector<rl::Light> lights;
   std::vector<rl::AliasEntry> alias;  // one per light; empty if none shines
   size_t lamps = 0;                   // triangles, points and spots, also those that are off
-  float lampShare = 0.0f;  // probability that `alias` gives one of them; 1: nothing else shines
+  float lampShare = 0.0f;      // probability that `alias` gives one of them; 1: nothing else shines
+  uint32_t firstPunctual = 0;  // in `lights`
+  std::vector<uint32_t> punctual;      // index in Scene::lights of each from there on
   std::vector<glm::vec3> environment;  // scaled radiance
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;

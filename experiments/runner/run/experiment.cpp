@@ -12,6 +12,7 @@
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/run/block_masks.h"
 #include "experiments/runner/run/figures.h"
 #include "experiments/runner/run/run_record.h"
@@ -262,6 +263,7 @@ struct BlockExecutor::Impl {
         take(m, frame, stats, results[m], frames[m]);
       }
     }
+    noteUndrawnLights();
     JobData data;
     for (size_t m = 0; m < count; ++m) {
       JobMethod& method = data.methods.emplace_back();
@@ -278,17 +280,30 @@ struct BlockExecutor::Impl {
     return data;
   }
 
+  void noteUndrawnLights() {
+    undrawnLights.clear();
+    for (size_t m = 0; m < sessions.size(); ++m) {
+      const std::string text = sessions[m]->drawnLights().text();
+      if (text.empty()) continue;
+      undrawnLights.push_back(
+          fmt::format("{}, {}: {}", prepared.scene->source().name, suite.methods[m].name, text));
+    }
+  }
+
   const Suite& suite;
   const PreparedScene& prepared;
   BlockResult& block;
   std::vector<std::unique_ptr<Session>> sessions;
   std::vector<MethodResult> descriptions;  // constant over runs
+  std::vector<std::string> undrawnLights;  // lines, after the last run
 };
 
 BlockExecutor::BlockExecutor(const Suite& suite, const PreparedScene& prepared, BlockResult& block)
     : impl_(std::make_unique<Impl>(suite, prepared, block)) {}
 
-BlockExecutor::~BlockExecutor() = default;
+BlockExecutor::~BlockExecutor() {
+  for (const std::string& line : impl_->undrawnLights) logInfo(line);
+}
 
 std::optional<JobData> BlockExecutor::execute(uint32_t run, const std::string& job,
                                               const std::string& startedUtc) {
