@@ -282,6 +282,121 @@ def glb(document, binary):
     return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
 
 
+# ---- Compressed geometry --------------------------------------------------------------------------
+
+
+def varint(number):
+    data = b""
+    while number > 127:
+        data += bytes([number & 127 | 128])
+        number >>= 7
+    return data + bytes([number])
+
+
+def zigzag(number, bits):
+    return (number << 1 ^ number >> bits - 1) & (1 << bits) - 1
+
+
+def meshopt_attributes(elements):
+    """Version 0 of meshoptimizer's vertex codec: the bytes of each column, as differences in groups of
+    16, none of them packed (mode 3); elements are of equal length, up to 16 of them. At the end is the
+    element that the first one differs from."""
+    stride = len(elements[0])
+    base = elements[0]
+    data = b"\xa0"
+    for k in range(stride):
+        before, deltas = base[k], b""
+        for element in elements:
+            difference = (element[k] - before + 128) % 256 - 128
+            deltas += bytes([zigzag(difference, 8)])
+            before = element[k]
+        data += b"\x03" + deltas.ljust(16, b"\0")
+    return data + bytes(max(0, 32 - stride)) + base
+
+
+def meshopt_indices(indices):
+    """The codec of index sequences, version 1: differences from the first of two baselines."""
+    data, before = b"\xd1", 0
+    for index in indices:
+        data += varint(zigzag(index - before, 32) << 1)
+        before = index
+    return data + bytes(4)
+
+
+def draco_triangle(**more):
+    """Draco's sequential mesh of CORNERS: indices and values as they are, one attribute."""
+    claims = {"triangles": 1, "points": 3, "kind": 1, "version": b"\x02\x02"} | more
+    return (b"DRACO" + claims["version"] + bytes([claims["kind"], 0]) + b"\0\0"
+            + varint(claims["triangles"]) + varint(claims["points"]) + b"\1" + bytes([0, 1, 2])
+            + b"\1" + b"\1" + bytes([0, 9, 3, 0]) + b"\0" + b"\0" + CORNERS)
+
+
+# A grid of 4 x 4 squares with positions, normals and colours, by Draco's own encoder (edgebreaker).
+DRACO_GRID = base64.b64decode(
+    "RFJBQ08CAgEBAAAAGSACIAMACu/T6lOt6lPVqhr/ARH/AsxC/wLMQgP/AAAAAAABAAABAAkDAAACAQEJAwABAwECBAQBAgEB"
+    "AQEADwMVLj0KJyEFkQIGqKZ06v+h////DwD8f/8PAABA/wcAQIAIAABEAAQEAgAAAAD/PwAAAAAAAAAAAAAAAAAAAACAPw4A"
+    "AwEBAYAEuT7/////////90kBAyLfnv8DAAD/AQAACgEBAQARAzEzIQUvkQIhBQbkTf5ff4D+//7/AAABAP9/AIAAAAAAAID/"
+    "PwAAAAAAAgAAAAACAAAAAAAAAAAA//8AAA==")
+# The same triangles by meshoptimizer's encoder of index buffers.
+MESHOPT_GRID = base64.b64decode(
+    "4f4eEA4QDhAOzh4WDhUOFA7OHhQOFA4UDs4eFA4UDhQODwoAdodWZ3iphmWJaJgBaQAA")
+
+
+def numbered(*numbers):
+    return b"".join(struct.pack("<H", number) for number in numbers)
+
+
+def compressed():
+    corners = [CORNERS[i:i + 12] for i in (0, 12, 24)]
+    write("draco", "read-sequential", numbered(1, 3, 0) + draco_triangle())
+    write("draco", "read-edgebreaker", numbered(32, 25, 3) + DRACO_GRID)
+    write("draco", "other-count", numbered(1, 4, 0) + draco_triangle())
+    write("draco", "no-normals", numbered(1, 3, 1) + draco_triangle())
+    write("draco", "point-cloud", numbered(1, 3, 0) + draco_triangle(kind=0))
+    write("draco", "old", numbered(1, 3, 0) + draco_triangle(version=b"\x01\x01"))
+    write("draco", "lying-points", numbered(1, 65535, 0) + draco_triangle(points=65535))
+    write("draco", "lying-triangles", numbered(65535, 25, 3)
+          + DRACO_GRID[:13] + varint(65535) + DRACO_GRID[14:])
+    write("draco", "short", numbered(32, 25, 3) + DRACO_GRID[:60])
+    write("meshopt", "read-attributes", numbered(0, 3, 12) + meshopt_attributes(corners))
+    write("meshopt", "read-triangles", numbered(1, 96, 2) + MESHOPT_GRID)
+    write("meshopt", "read-indices", numbered(2, 3, 4) + meshopt_indices([0, 1, 2]))
+    write("meshopt", "read-octahedral", numbered(0x100, 3, 4)
+          + meshopt_attributes([bytes([0, 0, 127, 0]), bytes([127, 0, 127, 0]), bytes([0, 129, 127, 0])]))
+    write("meshopt", "read-quaternion", numbered(0x200, 2, 8) + meshopt_attributes([bytes(8), bytes(range(8))]))
+    write("meshopt", "read-exponential", numbered(0x300, 3, 12) + meshopt_attributes(corners))
+    write("meshopt", "filtered-indices", numbered(0x102, 3, 4) + meshopt_indices([0, 1, 2]))
+    write("meshopt", "huge-count", numbered(0, 65535, 256) + meshopt_attributes(corners))
+    write("meshopt", "short", numbered(0, 3, 12) + meshopt_attributes(corners)[:40])
+    write("meshopt", "another-mode", numbered(1, 3, 4) + meshopt_indices([0, 1, 2]))
+
+
+def compressed_scenes(compact):
+    stream = draco_triangle()
+    extension = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    more = dict(
+        extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": extension}]}],
+        bufferViews=[{"buffer": 0, "byteLength": len(stream)}],
+        buffers=[{"byteLength": len(stream), "uri": uri(stream)}])
+    accessors = [{"componentType": 5126, "count": 3, "type": "VEC3"},
+                 {"componentType": 5123, "count": 3, "type": "SCALAR"}]
+    write("gltf", "read-draco.gltf", compact(triangle(accessors=accessors, **more)))
+    write("gltf", "draco-count.gltf", compact(triangle(
+        accessors=[accessors[0], accessors[1] | {"count": 2**31}], **more)))
+    corners = meshopt_attributes([CORNERS[i:i + 12] for i in (0, 12, 24)])
+    view = {"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+        "buffer": 0, "byteLength": len(corners), "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}}
+    more = dict(extensionsUsed=["EXT_meshopt_compression"], extensionsRequired=["EXT_meshopt_compression"],
+                buffers=[{"byteLength": len(corners), "uri": uri(corners)},
+                         {"byteLength": 36, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}])
+    write("gltf", "read-meshopt.gltf", compact(triangle(bufferViews=[view], **more)))
+    huge = json.loads(json.dumps(view))
+    huge["byteLength"] = more["buffers"][1]["byteLength"] = 12 * 2**40
+    huge["extensions"]["EXT_meshopt_compression"]["count"] = 2**40
+    write("gltf", "meshopt-count.gltf", compact(triangle(bufferViews=[huge], **more)))
+
+
 def scenes():
     compact = lambda document: json.dumps(document, separators=(",", ":"))
     write("gltf", "read-empty.gltf", compact({"asset": {"version": "2.0"}}))
@@ -333,6 +448,14 @@ def scenes():
         extensionsUsed=["EXT_mesh_gpu_instancing"],
         nodes=[{"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 2, 3, 4, 1], "extensions": {
             "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])))
+    write("gltf", "read-specular-glossiness.gltf", compact(triangle(
+        extensionsUsed=["KHR_materials_pbrSpecularGlossiness"],
+        materials=[{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [1, 0.5, 0.25, 1], "specularFactor": [0.5, 1, 0], "glossinessFactor": 0.5,
+            "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0, "texCoord": 1}}}}],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        textures=[{"source": 0}], images=[{"uri": uri(PNG_RGBA, "image/png")}])))
+    compressed_scenes(compact)
     write("gltf", "loop.gltf", compact(triangle(nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}])))
     write("gltf", "outside.gltf", compact(triangle(buffers=[{"byteLength": 36, "uri": "../corners.bin"}])))
     write("gltf", "huge-count.gltf", compact(triangle(accessors=[
@@ -406,5 +529,5 @@ method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
     write("suite", "bytes.toml", bytes(range(256)))
 
 
-for make in (textures, environments, images, scenes, scene_files, suites, commands):
+for make in (textures, environments, images, scenes, compressed, scene_files, suites, commands):
     make()

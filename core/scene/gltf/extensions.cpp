@@ -39,14 +39,11 @@ std::vector<std::string> textsOf(const json& document, const char* key) {
 
 // Advice for a required extension that is not read.
 std::string remedyFor(const std::string& extension) {
-  if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression") {
-    return "export the file without mesh compression";
-  }
-  if (extension == "KHR_materials_pbrSpecularGlossiness") {
-    return "convert the materials to metallic-roughness";
-  }
-  if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp") {
-    return "export the textures as PNG or JPEG";
+  for (const auto& [name, tool] :
+       {std::pair("KHR_texture_basisu", "'ktx extract' makes PNG of KTX2"),
+        std::pair("EXT_texture_webp", "'dwebp' makes PNG of WebP"),
+        std::pair("EXT_texture_avif", "'avifdec' makes PNG of AVIF")}) {
+    if (extension == name) return fmt::format("textures as PNG or JPEG expected; {}", tool);
   }
   const std::string nearest = nearestName(extension, supportedExtensions());
   return nearest.empty() ? "export the file without it" : "did you mean '" + nearest + "'?";
@@ -122,11 +119,10 @@ void checkExtensions(const json& document, Report& report) {
     }
     if (contains(supported, used[i])) continue;
     report.warn("extension " + used[i], fmt::format("extensionsUsed[{}]", i),
-                fmt::format("{} is not supported and not read", used[i]));
-  }
-  if (contains(used, "KHR_materials_variants")) {
-    report.warn("extension KHR_materials_variants", "extensionsUsed",
-                "KHR_materials_variants: every primitive keeps its default material");
+                fmt::format("{} is not supported and not read{}", used[i],
+                            used[i].find("_texture_") == std::string::npos
+                                ? ""
+                                : "; the PNG or JPEG beside its images is drawn"));
   }
   std::set<std::string> present;
   collectExtensions(document, present);
