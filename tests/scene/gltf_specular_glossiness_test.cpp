@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/backend/bsdf_probe.h"
+#include "core/scene/content_hash.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {
@@ -109,6 +110,21 @@ TEST(GltfSpecularGlossiness, OtherMaterialsBesideIt) {
                      {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}});
   EXPECT_TRUE(test::warns(unlit, "is not read beside KHR_materials_unlit"));
   EXPECT_EQ(unlit.materials.at(0).data.baseColor, glm::vec3(0.5f));
+}
+
+// A file that was drawn by its metallic-roughness before has other references now.
+TEST(GltfSpecularGlossiness, ContentHashesAreNotThoseOfTheFallback) {
+  for (const bool isUsed : {false, true}) {
+    GltfBuilder file;
+    if (isUsed) file.doc["extensionsUsed"] = {kSpecGloss};
+    file.add("materials", {{"extensions", {{kSpecGloss, json::object()}}}});
+    file.node({{"mesh", file.triangle({{"material", 0}})}});
+    const Scene scene = file.load();
+    const std::string text = file.doc.dump();
+    const uint64_t ofText = hashBytes(text.data(), text.size(), 0);
+    const uint64_t ofFiles = hashBytes(file.bytes().data(), file.bytes().size(), ofText);
+    EXPECT_EQ(scene.contentHash != ofFiles, isUsed);
+  }
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ namespace restlab::gltf {
 namespace {
 
 // Bytes that the connectivity of a mesh takes while it is decoded, for each corner and for each set
-// of seams, and the traversal of a corner by each decoder of attributes. Measured upper bounds.
-constexpr uint64_t kBytesPerCorner = 32;
+// of seams, and the traversal of a corner by each decoder of attributes: twice what was measured
+// (docs/decisions/hostile-draco-streams.md).
+constexpr uint64_t kBytesPerCorner = 16;
 constexpr uint64_t kBytesPerTraversal = 8;
 
 // Counts that a stream claims before its connectivity is decoded.

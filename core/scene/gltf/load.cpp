@@ -13,6 +13,7 @@
 #include "core/scene/gltf/nodes.h"
 #include "core/scene/gltf/objects.h"
 #include "core/scene/gltf/rules.h"
+#include "core/scene/gltf/specular_glossiness.h"
 #include "core/scene/gltf/texture.h"
 #include "core/scene/gltf/validate.h"
 #include "core/scene/gltf/variants.h"
@@ -20,6 +21,16 @@
 
 namespace restlab {
 namespace {
+
+// Earlier versions drew files without these extensions; their references are not those of this one.
+uint64_t withNewExtensions(const tinygltf::Model& model, uint64_t hash) {
+  for (const std::string& name : model.extensionsUsed) {
+    if (name == "EXT_meshopt_compression" || name == "KHR_draco_mesh_compression" ||
+        name == gltf::kSpecularGlossiness)
+      hash = hashBytes(name.data(), name.size(), hash);
+  }
+  return hash;
+}
 
 Scene import(const std::filesystem::path& file, const std::optional<std::string>& variant,
              gltf::Report& report) {
@@ -38,7 +49,7 @@ Scene import(const std::filesystem::path& file, const std::optional<std::string>
   Scene scene;
   scene.name = file.stem().string();
   scene.source = file;
-  scene.contentHash = document.contentHash;
+  scene.contentHash = withNewExtensions(document.model, document.contentHash);
   scene.variants = variants;
   scene.variant = variant;
   if (variant) {
