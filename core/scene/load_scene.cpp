@@ -110,6 +110,17 @@ std::string namesakeBelow(const fs::path& folder, const fs::path& name) {
   return shortest == found.end() ? "" : *shortest;
 }
 
+// The variant that is named behind the '?' of a glTF file: all that follows "variant=".
+std::optional<std::string> variantOf(const std::string& settings, const std::string& name) {
+  if (settings.empty()) return std::nullopt;
+  const std::string key = "variant=";
+  if (!settings.starts_with(key)) {
+    failInput(fmt::format("{}: '{}' is no setting of a glTF file; '?variant=NAME' expected", name,
+                          settings));
+  }
+  return settings.substr(key.size());
+}
+
 }  // namespace
 
 Scene loadScene(const std::string& nameOrPath) {
@@ -131,12 +142,7 @@ Scene loadScene(const std::string& nameOrPath) {
     const fs::path candidate = folder / path;
     if (const fs::path file = resolve(candidate); !file.empty()) {
       if (isSceneFile(file)) return loadSceneFile(file, settings);
-      if (!settings.empty())
-        failInput(
-            fmt::format("{}: only built-in scenes and scene files (.scene.toml) take "
-                        "settings behind a '?'",
-                        nameOrPath));
-      return loadGltf(file);
+      return loadGltf(file, variantOf(settings, nameOrPath));
     }
     tried += (tried.empty() ? "" : ", ") + candidate.string();
     const fs::path parent = candidate.parent_path();

@@ -135,10 +135,14 @@ struct Scene {
   std::vector<std::string> warnings;    // one line each, printed by the program
   uint64_t contentHash = 0;             // hash of every byte the scene was made from
   size_t skippedPrimitives = 0;         // number of points and lines
+  // Names in KHR_materials_variants, and the one whose materials are drawn (nullopt: the default).
+  std::vector<std::string> variants;
+  std::optional<std::string> variant;
 };
 
-// Imports a glTF 2.0 file (.gltf or .glb). Throws Error (badInput) with one line.
-Scene loadGltf(const std::filesystem::path& file);
+// Imports a glTF 2.0 file (.gltf or .glb), with the materials of a variant if one is named. Throws
+// Error (badInput) with one line.
+Scene loadGltf(const std::filesystem::path& file, const std::optional<std::string>& variant = {});
 
 // Numeric parameter in the name of a built-in scene, "furnace?albedo=0.9"
 // (core/scene/builtin/name.h).

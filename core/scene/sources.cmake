@@ -42,19 +42,24 @@ add_library(rl_scene_files OBJECT
   scene/gltf/closures.cpp
   scene/gltf/container.cpp
   scene/gltf/document.cpp
+  scene/gltf/draco.cpp
+  scene/gltf/draco_mesh.cpp
   scene/gltf/extensions.cpp
   scene/gltf/instances.cpp
   scene/gltf/load.cpp
   scene/gltf/material.cpp
   scene/gltf/mesh.cpp
+  scene/gltf/meshopt.cpp
   scene/gltf/nodes.cpp
   scene/gltf/report.cpp
   scene/gltf/rules.cpp
   scene/gltf/schema.cpp
+  scene/gltf/specular_glossiness.cpp
   scene/gltf/texture.cpp
   scene/gltf/triangles.cpp
   scene/gltf/uri.cpp
   scene/gltf/validate.cpp
+  scene/gltf/variants.cpp
   scene/gltf/tinygltf.cpp
   scene/builtin/builtin.cpp
   scene/builtin/builder.cpp
@@ -75,9 +80,12 @@ add_library(rl_scene_files OBJECT
   scene/builtin/sky.cpp
 )
 target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
-                      nlohmann_json::nlohmann_json OpenEXR::OpenEXR)
+                      nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer)
 rl_compile_lightly(rl_scene_files)
 rl_compile_together(rl_scene_files 1 gltf builtin)
+# Draco's headers define macros with short names.
+set_property(SOURCE scene/gltf/draco_mesh.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out).
 set_property(SOURCE scene/gltf/tinygltf.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 target_sources(rl_core PRIVATE $<TARGET_OBJECTS:rl_scene_files>)
+target_link_libraries(rl_core PRIVATE draco::draco meshoptimizer::meshoptimizer)

@@ -123,6 +123,8 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
   }
   json["lights"] = lights;
   json["closures"] = closuresOfScene(scene);
+  json["variants"] = scene.variants;
+  json["variant"] = scene.variant ? Json(*scene.variant) : Json();
   const auto triple = [](const glm::vec3& v) { return Json{v.x, v.y, v.z}; };
   json["ambient"] = triple(scene.ambient);
   json["background"] = scene.background ? triple(*scene.background) : Json();
@@ -162,6 +164,8 @@ void printScene(const PreparedScene& prepared, const Json& json) {
   print("objects      {} meshes, {} instances, {} materials, {} textures\n",
         scene.geometries.size(), scene.instances.size(), scene.materials.size(),
         scene.images.size());
+  for (const std::string& variant : scene.variants)
+    print("variant      '{}'{}\n", oneLine(variant), variant == scene.variant ? ", drawn" : "");
   for (const Json& camera : json["cameras"]) {
     const auto point = [&](const char* key) {
       const auto p = camera[key].get<std::array<double, 3>>();
@@ -233,6 +237,7 @@ Action addInfoVerb(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand("info", "what a scene holds and needs");
   verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
+  addVariant(*verb, options->request.scene);
   verb->add_option("--camera", options->request.camera,
                    "name or index of the camera to show (default: all of them)");
   verb->add_option("--environment", options->request.environment,

@@ -196,10 +196,17 @@ void addOutput(CLI::App& verb, std::string& output) {
   verb.add_option("-o,--output,--outfile", output, "EXR file to write")->required();
 }
 
+void addVariant(CLI::App& verb, std::string& scene) {
+  verb.add_option_function<std::string>(
+      "--variant", [&scene](const std::string& name) { scene += "?variant=" + name; },
+      "of a glTF file's materials, as FILE?variant=NAME");
+}
+
 void addSceneOptions(CLI::App& verb, SceneOptions& options) {
   SceneRequest& request = options.request;
   verb.add_option("scene", request.scene, "a glTF file or a built-in scene (restlab list scenes)")
       ->required();
+  addVariant(verb, request.scene);
   verb.add_option("--resolution", options.resolution,
                   "WxH pixels (default: 512 wide, the camera's "
                   "aspect ratio)");

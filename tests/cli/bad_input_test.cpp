@@ -30,8 +30,8 @@ class BadInputTest : public ProgramTest, public ::testing::WithParamInterface<Ba
     write("short.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12));
     std::string required = good;
     required.insert(1,
-                    "\"extensionsRequired\": [\"EXT_meshopt_compression\"], "
-                    "\"extensionsUsed\": [\"EXT_meshopt_compression\"], ");
+                    "\"extensionsRequired\": [\"KHR_texture_basisu\"], "
+                    "\"extensionsUsed\": [\"KHR_texture_basisu\"], ");
     write("required.gltf", required);
     write("text.exr", "this is no image");
     write("negative.exr", "");
@@ -179,7 +179,7 @@ const BadInput kBadInputs[] = {
     {"EmptyScene", "render empty.gltf -o x.exr", 3, {"empty.gltf"}},
     {"TruncatedBinary", "render short.glb -o x.exr", 3, {"short.glb"}},
     {"NanVertex", "render nan.gltf -o x.exr", 3, {"nan.gltf", "vert"}},
-    {"RequiredExtension", "render required.gltf -o x.exr", 3, {"EXT_meshopt_compression"}},
+    {"RequiredExtension", "render required.gltf -o x.exr", 3, {"KHR_texture_basisu"}},
     {"MissingEnvironment", "render good.gltf -o x.exr --environment absent.hdr", 3, {"absent.hdr"}},
     {"BrokenEnvironment", "render good.gltf -o x.exr --environment text.exr", 3, {"text.exr"}},
     {"NegativeEnvironment",

@@ -17,6 +17,10 @@ bool readSuite(const uint8_t* bytes, size_t count);    // .toml
 bool readHdr(const uint8_t* bytes, size_t count);      // an environment, .hdr
 bool readExr(const uint8_t* bytes, size_t count);      // .exr
 bool readCommand(const uint8_t* bytes, size_t count);  // from a page to the viewer
+// Streams of compressed geometry, behind numbers of two bytes. Draco: triangles, vertices, bits of
+// more attributes; meshopt: mode and filter, elements, bytes of each.
+bool readDraco(const uint8_t* bytes, size_t count);
+bool readMeshopt(const uint8_t* bytes, size_t count);
 bool readTexture(const uint8_t* bytes, size_t count);  // PNG or JPEG
 // .scene.toml, and, behind a byte 0, settings behind its name
 bool readSceneFile(const uint8_t* bytes, size_t count);

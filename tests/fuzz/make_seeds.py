@@ -11,6 +11,9 @@ import pathlib
 import struct
 import zlib
 
+from compressed_streams import (CORNERS, DRACO_GRID, MESHOPT_GRID, draco_triangle, meshopt_attributes,
+                                meshopt_indices, varint)
+
 SEEDS = pathlib.Path(__file__).parent / "seeds"
 
 
@@ -256,9 +259,6 @@ def uri(data, kind="application/octet-stream"):
     return f"data:{kind};base64," + base64.b64encode(data).decode()
 
 
-CORNERS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
-
-
 def triangle(**more):
     document = {
         "asset": {"version": "2.0"},
@@ -280,6 +280,64 @@ def glb(document, binary):
     body = struct.pack("<I", len(text)) + b"JSON" + text
     body += struct.pack("<I", len(binary)) + b"BIN\0" + binary
     return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
+
+
+# ---- Compressed geometry --------------------------------------------------------------------------
+
+
+def numbered(*numbers):
+    return b"".join(struct.pack("<H", number) for number in numbers)
+
+
+def compressed():
+    corners = [CORNERS[i:i + 12] for i in (0, 12, 24)]
+    write("draco", "read-sequential", numbered(1, 3, 0) + draco_triangle())
+    write("draco", "read-edgebreaker", numbered(32, 25, 3) + DRACO_GRID)
+    write("draco", "other-count", numbered(1, 4, 0) + draco_triangle())
+    write("draco", "no-normals", numbered(1, 3, 1) + draco_triangle())
+    write("draco", "point-cloud", numbered(1, 3, 0) + draco_triangle(kind=0))
+    write("draco", "old", numbered(1, 3, 0) + draco_triangle(version=b"\x01\x01"))
+    write("draco", "lying-points", numbered(1, 65535, 0) + draco_triangle(points=65535))
+    write("draco", "lying-triangles", numbered(65535, 25, 3)
+          + DRACO_GRID[:13] + varint(65535) + DRACO_GRID[14:])
+    write("draco", "short", numbered(32, 25, 3) + DRACO_GRID[:60])
+    write("meshopt", "read-attributes", numbered(0, 3, 12) + meshopt_attributes(corners))
+    write("meshopt", "read-triangles", numbered(1, 96, 2) + MESHOPT_GRID)
+    write("meshopt", "read-indices", numbered(2, 3, 4) + meshopt_indices([0, 1, 2]))
+    write("meshopt", "read-octahedral", numbered(0x100, 3, 4)
+          + meshopt_attributes([bytes([0, 0, 127, 0]), bytes([127, 0, 127, 0]), bytes([0, 129, 127, 0])]))
+    write("meshopt", "read-quaternion", numbered(0x200, 2, 8) + meshopt_attributes([bytes(8), bytes(range(8))]))
+    write("meshopt", "read-exponential", numbered(0x300, 3, 12) + meshopt_attributes(corners))
+    write("meshopt", "filtered-indices", numbered(0x102, 3, 4) + meshopt_indices([0, 1, 2]))
+    write("meshopt", "huge-count", numbered(0, 65535, 256) + meshopt_attributes(corners))
+    write("meshopt", "short", numbered(0, 3, 12) + meshopt_attributes(corners)[:40])
+    write("meshopt", "another-mode", numbered(1, 3, 4) + meshopt_indices([0, 1, 2]))
+
+
+def compressed_scenes(compact):
+    stream = draco_triangle()
+    extension = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    more = dict(
+        extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": extension}]}],
+        bufferViews=[{"buffer": 0, "byteLength": len(stream)}],
+        buffers=[{"byteLength": len(stream), "uri": uri(stream)}])
+    accessors = [{"componentType": 5126, "count": 3, "type": "VEC3"},
+                 {"componentType": 5123, "count": 3, "type": "SCALAR"}]
+    write("gltf", "read-draco.gltf", compact(triangle(accessors=accessors, **more)))
+    write("gltf", "draco-count.gltf", compact(triangle(
+        accessors=[accessors[0], accessors[1] | {"count": 2**31}], **more)))
+    corners = meshopt_attributes([CORNERS[i:i + 12] for i in (0, 12, 24)])
+    view = {"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+        "buffer": 0, "byteLength": len(corners), "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}}
+    more = dict(extensionsUsed=["EXT_meshopt_compression"], extensionsRequired=["EXT_meshopt_compression"],
+                buffers=[{"byteLength": len(corners), "uri": uri(corners)},
+                         {"byteLength": 36, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}])
+    write("gltf", "read-meshopt.gltf", compact(triangle(bufferViews=[view], **more)))
+    huge = json.loads(json.dumps(view))
+    huge["byteLength"] = more["buffers"][1]["byteLength"] = 12 * 2**40
+    huge["extensions"]["EXT_meshopt_compression"]["count"] = 2**40
+    write("gltf", "meshopt-count.gltf", compact(triangle(bufferViews=[huge], **more)))
 
 
 def scenes():
@@ -333,6 +391,14 @@ def scenes():
         extensionsUsed=["EXT_mesh_gpu_instancing"],
         nodes=[{"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 2, 3, 4, 1], "extensions": {
             "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])))
+    write("gltf", "read-specular-glossiness.gltf", compact(triangle(
+        extensionsUsed=["KHR_materials_pbrSpecularGlossiness"],
+        materials=[{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [1, 0.5, 0.25, 1], "specularFactor": [0.5, 1, 0], "glossinessFactor": 0.5,
+            "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0, "texCoord": 1}}}}],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        textures=[{"source": 0}], images=[{"uri": uri(PNG_RGBA, "image/png")}])))
+    compressed_scenes(compact)
     write("gltf", "loop.gltf", compact(triangle(nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}])))
     write("gltf", "outside.gltf", compact(triangle(buffers=[{"byteLength": 36, "uri": "../corners.bin"}])))
     write("gltf", "huge-count.gltf", compact(triangle(accessors=[
@@ -406,5 +472,5 @@ method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
     write("suite", "bytes.toml", bytes(range(256)))
 
 
-for make in (textures, environments, images, scenes, scene_files, suites, commands):
+for make in (textures, environments, images, scenes, compressed, scene_files, suites, commands):
     make()

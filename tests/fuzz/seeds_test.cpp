@@ -43,7 +43,8 @@ TEST_P(Seeds, AreReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(All, Seeds,
                          ::testing::Values(Target{"gltf", readGltf}, Target{"suite", readSuite},
-                                           Target{"hdr", readHdr}, Target{"exr", readExr},
+                                           Target{"hdr", readHdr}, Target{"draco", readDraco},
+                                           Target{"meshopt", readMeshopt}, Target{"exr", readExr},
                                            Target{"texture", readTexture},
                                            Target{"command", readCommand},
                                            Target{"scene_file", readSceneFile}),

@@ -141,9 +141,9 @@ TEST(GltfErrors, TypesAndReferences) {
 
 TEST(GltfErrors, RequiredExtensions) {
   for (const auto& [name, remedy] :
-       {std::pair("KHR_draco_mesh_compression", "without mesh compression"),
-        std::pair("EXT_meshopt_compression", "without mesh compression"),
-        std::pair("KHR_materials_pbrSpecularGlossiness", "metallic-roughness"),
+       {std::pair("KHR_texture_basisu", "PNG or JPEG expected; 'ktx extract' makes PNG of KTX2"),
+        std::pair("EXT_texture_webp", "'dwebp' makes PNG of WebP"),
+        std::pair("EXT_texture_avif", "'avifdec' makes PNG of AVIF"),
         std::pair("KHR_material_ior", "did you mean 'KHR_materials_ior'?"),
         std::pair("VENDOR_teapot", "without it")}) {
     GltfBuilder file;
@@ -155,6 +155,28 @@ TEST(GltfErrors, RequiredExtensions) {
     EXPECT_NE(error.find(remedy), std::string::npos) << error;
     file.doc.erase("extensionsRequired");
     EXPECT_TRUE(test::warns(file.load(), std::string(name) + " is not supported and not read"));
+  }
+}
+
+// Textures of other formats: the PNG or JPEG beside them is drawn, where there is one.
+TEST(GltfErrors, TexturesOfOtherFormats) {
+  for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
+    GltfBuilder file;
+    file.doc["extensionsUsed"] = {name};
+    file.directory().write("a.png", test::tinyPng());
+    file.directory().write("a.other", "another format");
+    file.doc["images"] = {{{"uri", "a.png"}}, {{"uri", "a.other"}}};
+    file.doc["textures"] = {{{"source", 0}, {"extensions", {{name, {{"source", 1}}}}}}};
+    file.add("materials", {{"emissiveTexture", {{"index", 0}}}});
+    file.node({{"mesh", file.triangle({{"material", 0}})}});
+    const Scene scene = file.load();
+    EXPECT_EQ(scene.images.size(), 1u);
+    EXPECT_TRUE(test::warns(scene, std::string(name) + " is not supported and not read; the PNG or "
+                                                       "JPEG beside its images is drawn"));
+    file.doc["textures"][0].erase("source");
+    EXPECT_EQ(file.error(), std::string("textures[0].source: is missing (") + name +
+                                " is not read); a PNG or JPEG expected (used by "
+                                "materials[0].emissiveTexture)");
   }
 }
 

@@ -6,19 +6,25 @@ set(RL_SCENE_TESTS
   scene/camera_path_config_test.cpp
   scene/camera_path_test.cpp
   scene/closure_table_test.cpp
+  scene/draco_encode.cpp
   scene/environment_files_test.cpp
   scene/gltf_builder.cpp
   scene/gltf_corpus_test.cpp
+  scene/gltf_draco_test.cpp
   scene/gltf_errors_test.cpp
+  scene/gltf_extensions_test.cpp
   scene/gltf_geometry_test.cpp
   scene/gltf_glb_test.cpp
   scene/gltf_material_test.cpp
+  scene/gltf_meshopt_test.cpp
   scene/gltf_nodes_test.cpp
   scene/gltf_limits_test.cpp
   scene/gltf_lenient_test.cpp
   scene/gltf_scale_test.cpp
+  scene/gltf_specular_glossiness_test.cpp
   scene/gltf_uri_test.cpp
   scene/gltf_validator_test.cpp
+  scene/gltf_variants_test.cpp
   scene/hdr_test.cpp
   scene/image_limits_test.cpp
   scene/light_factor_test.cpp
@@ -28,3 +34,4 @@ set(RL_SCENE_TESTS
   ${RL_BUILTIN_TESTS}
   scene/daylight_test.cpp
 )
+set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

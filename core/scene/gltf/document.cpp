@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/scene/content_hash.h"
+#include "core/scene/gltf/draco.h"
 #include "core/scene/gltf/files.h"
 #include "core/scene/gltf/json.h"
+#include "core/scene/gltf/meshopt.h"
 #include "core/scene/gltf/uri.h"
 
 namespace restlab::gltf {
@@ -159,15 +161,24 @@ Document loadDocument(Container container, const fs::path& directory, Report& re
   uint64_t hash = hashBytes(container.fileBytes.data(), container.fileBytes.size(), 0);
   container.fileBytes.clear();
 
-  Served served;
   const size_t bufferCount = arrayOf(root, "buffers").size();
+  std::vector<std::vector<uint8_t>> buffers;
   for (size_t i = 0; i < bufferCount; ++i) {
     json& buffer = root["buffers"][i];
+    if (isMeshoptFallback(buffer)) {
+      buffers.push_back({0});  // a byte that no view refers to, as tinygltf takes no empty buffer
+      buffer["byteLength"] = buffers.back().size();
+      continue;
+    }
+    buffers.push_back(loadBuffer(buffer, i, container, directory, report));
+    hash = hashBytes(buffers.back().data(), buffers.back().size(), hash);
+  }
+  decodeMeshopt(root, buffers, report);
+  Served served;
+  for (size_t i = 0; i < buffers.size(); ++i) {
     const std::string name = fmt::format("buffer-{}", i);
-    std::vector<uint8_t> bytes = loadBuffer(buffer, i, container, directory, report);
-    hash = hashBytes(bytes.data(), bytes.size(), hash);
-    served.files[name] = std::move(bytes);
-    buffer["uri"] = name;
+    served.files[name] = std::move(buffers[i]);
+    root["buffers"][i]["uri"] = name;
   }
   document.images = loadImages(root, directory, report);
   for (size_t i = 0; i < document.images.size(); ++i) {
@@ -183,6 +194,7 @@ Document loadDocument(Container container, const fs::path& directory, Report& re
   root.erase("animations");
   root.erase("skins");
   removeExtras(root);
+  hideDracoIndices(root);
   const std::string text = root.dump();
   root = json();
 

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/scene/gltf/json.h"
@@ -37,16 +39,21 @@ std::vector<std::string> textsOf(const json& document, const char* key) {
                                                : it->get<std::vector<std::string>>();
 }
 
+// Extensions for images of other formats, and tools that convert those.
+constexpr std::pair<const char*, const char*> kImageFormats[] = {
+    {"KHR_texture_basisu", "'ktx extract' makes PNG of KTX2"},
+    {"EXT_texture_webp", "'dwebp' makes PNG of WebP"},
+    {"EXT_texture_avif", "'avifdec' makes PNG of AVIF"}};
+
+bool isImageFormat(const std::string& extension) {
+  return std::any_of(std::begin(kImageFormats), std::end(kImageFormats),
+                     [&](const auto& format) { return extension == format.first; });
+}
+
 // Advice for a required extension that is not read.
 std::string remedyFor(const std::string& extension) {
-  if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression") {
-    return "export the file without mesh compression";
-  }
-  if (extension == "KHR_materials_pbrSpecularGlossiness") {
-    return "convert the materials to metallic-roughness";
-  }
-  if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp") {
-    return "export the textures as PNG or JPEG";
+  for (const auto& [name, tool] : kImageFormats) {
+    if (extension == name) return fmt::format("textures as PNG or JPEG expected; {}", tool);
   }
   const std::string nearest = nearestName(extension, supportedExtensions());
   return nearest.empty() ? "export the file without it" : "did you mean '" + nearest + "'?";
@@ -121,12 +128,10 @@ void checkExtensions(const json& document, Report& report) {
       continue;
     }
     if (contains(supported, used[i])) continue;
-    report.warn("extension " + used[i], fmt::format("extensionsUsed[{}]", i),
-                fmt::format("{} is not supported and not read", used[i]));
-  }
-  if (contains(used, "KHR_materials_variants")) {
-    report.warn("extension KHR_materials_variants", "extensionsUsed",
-                "KHR_materials_variants: every primitive keeps its default material");
+    report.warn(
+        "extension " + used[i], fmt::format("extensionsUsed[{}]", i),
+        fmt::format("{} is not supported and not read{}", used[i],
+                    isImageFormat(used[i]) ? "; the PNG or JPEG beside its images is drawn" : ""));
   }
   std::set<std::string> present;
   collectExtensions(document, present);

@@ -7,6 +7,7 @@
 
 #include "core/scene/compiled/bodies.h"
 #include "core/scene/gltf/json.h"
+#include "core/scene/gltf/specular_glossiness.h"
 
 namespace restlab::gltf {
 namespace {
@@ -68,8 +69,10 @@ class MaterialImporter {
     importBase();
     importAlpha();
     importEmission();
-    importSpecular();
-    importTransmission();
+    if (!isSpecularGlossiness()) {
+      importSpecular();
+      importTransmission();
+    }
     if (material_.doubleSided) data_->flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
     if (has("KHR_materials_unlit")) data_->flags |= rl::RL_MATERIAL_UNLIT;
     return result;
@@ -91,19 +94,34 @@ class MaterialImporter {
                place_ + "." + name);
   }
 
+  // Returns whether KHR_materials_pbrSpecularGlossiness takes the place of metallic-roughness.
+  bool isSpecularGlossiness() const {
+    return has(kSpecularGlossiness) && !has("KHR_materials_unlit");
+  }
+
   void importBase() {
+    checkSpecularGlossiness(material_, place_, report_);
+    if (isSpecularGlossiness()) {
+      importSpecularGlossiness(material_.extensions.at(kSpecularGlossiness),
+                               placeOf(kSpecularGlossiness), textures_, *data_);
+    } else {
+      importMetallicRoughness();
+    }
+    data_->normalScale = static_cast<float>(material_.normalTexture.scale);
+    setTexture(rl::RL_TEX_NORMAL, material_.normalTexture, false, "normalTexture");
+  }
+
+  void importMetallicRoughness() {
     const tinygltf::PbrMetallicRoughness& pbr = material_.pbrMetallicRoughness;
     data_->baseColor =
         glm::dvec3(pbr.baseColorFactor[0], pbr.baseColorFactor[1], pbr.baseColorFactor[2]);
     data_->alpha = static_cast<float>(pbr.baseColorFactor[3]);
     data_->metallic = static_cast<float>(pbr.metallicFactor);
     data_->roughness = static_cast<float>(pbr.roughnessFactor);
-    data_->normalScale = static_cast<float>(material_.normalTexture.scale);
     setTexture(rl::RL_TEX_BASE_COLOR, pbr.baseColorTexture, true,
                "pbrMetallicRoughness.baseColorTexture");
     setTexture(rl::RL_TEX_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture, false,
                "pbrMetallicRoughness.metallicRoughnessTexture");
-    setTexture(rl::RL_TEX_NORMAL, material_.normalTexture, false, "normalTexture");
   }
 
   void importAlpha() {

@@ -88,16 +88,28 @@ Field referenceMap(const char* name, const char* target) {
   return {.name = name, .kind = Kind::referenceMap, .target = target};
 }
 
+Field integerMap(const char* name) {
+  return {.name = name, .kind = Kind::integerMap, .low = 0, .high = kMaxInt};
+}
+
 // The top-level array that KHR_lights_punctual adds.
 constexpr const char* kLights = "extensions.KHR_lights_punctual.lights";
 constexpr OutOfRange kClamps = OutOfRange::clamps;
 
 struct Tables {
   // Data.
-  Schema buffer{{label("name"), text("uri"), required(size("byteLength", 1))}};
+  Schema meshoptBuffer{{boolean("fallback")}};
+  Schema buffer{{label("name"), text("uri"), required(size("byteLength", 1))},
+                {{"EXT_meshopt_compression", &meshoptBuffer}}};
+  Schema meshoptView{{required(reference("buffer", "buffers")), size("byteOffset"),
+                      required(size("byteLength", 1)), required(integer("byteStride", 1, 256)),
+                      required(size("count", 1)),
+                      required(word("mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
+                      word("filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"})}};
   Schema bufferView{{label("name"), required(reference("buffer", "buffers")), size("byteOffset"),
                      required(size("byteLength", 1)), integer("byteStride", 4, 252),
-                     dispensable(choice("target", {34962, 34963}))}};
+                     dispensable(choice("target", {34962, 34963}))},
+                    {{"EXT_meshopt_compression", &meshoptView}}};
   Schema sparseIndices{{required(reference("bufferView", "bufferViews")), integer("byteOffset"),
                         required(choice("componentType", {5121, 5123, 5125}))}};
   Schema sparseValues{{required(reference("bufferView", "bufferViews")), integer("byteOffset")}};
@@ -145,6 +157,10 @@ struct Tables {
                  dispensable(object("thicknessTexture", textureInfo)),
                  positive("attenuationDistance"), numbers("attenuationColor", 3, 0, 1, kClamps)}};
   Schema unlit{};
+  Schema specularGlossiness{
+      {numbers("diffuseFactor", 4, 0, 1, kClamps), object("diffuseTexture", textureInfo),
+       numbers("specularFactor", 3, 0, 1, kClamps), number("glossinessFactor", 0, 1, kClamps),
+       object("specularGlossinessTexture", textureInfo)}};
   Schema material{
       {label("name"), object("pbrMetallicRoughness", metallicRoughness),
        object("normalTexture", normalTextureInfo),
@@ -158,14 +174,17 @@ struct Tables {
        {"KHR_materials_specular", &specular},
        {"KHR_materials_transmission", &transmission},
        {"KHR_materials_volume", &volume},
+       {"KHR_materials_pbrSpecularGlossiness", &specularGlossiness},
        {"KHR_materials_unlit", &unlit}}};
 
-  // Geometry. The mappings of KHR_materials_variants are not read: default materials are used.
+  // Geometry. core/scene/gltf/variants.cpp checks the content of KHR_materials_variants.
+  Schema draco{
+      {required(reference("bufferView", "bufferViews")), required(integerMap("attributes"))}};
   Schema variants{{ignored("mappings"), ignored("variants")}};
   Schema primitive{{required(referenceMap("attributes", "accessors")),
                     reference("indices", "accessors"), reference("material", "materials"),
                     choice("mode", {0, 1, 2, 3, 4, 5, 6}), ignored("targets")},
-                   {{"KHR_materials_variants", &variants}}};
+                   {{"KHR_materials_variants", &variants}, {"KHR_draco_mesh_compression", &draco}}};
   Schema mesh{{label("name"), required(objects("primitives", primitive)), ignored("weights")}};
 
   // Cameras and lights.
@@ -217,11 +236,20 @@ const Schema& documentSchema() {
 }
 
 const std::vector<std::string>& supportedExtensions() {
-  static const std::vector<std::string> names = {
-      "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-      "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-      "KHR_materials_unlit",     "KHR_materials_variants", "KHR_materials_volume",
-      "KHR_mesh_quantization",   "KHR_texture_transform"};
+  static const std::vector<std::string> names = {"EXT_mesh_gpu_instancing",
+                                                 "EXT_meshopt_compression",
+                                                 "KHR_draco_mesh_compression",
+                                                 "KHR_lights_punctual",
+                                                 "KHR_materials_emissive_strength",
+                                                 "KHR_materials_ior",
+                                                 "KHR_materials_pbrSpecularGlossiness",
+                                                 "KHR_materials_specular",
+                                                 "KHR_materials_transmission",
+                                                 "KHR_materials_unlit",
+                                                 "KHR_materials_variants",
+                                                 "KHR_materials_volume",
+                                                 "KHR_mesh_quantization",
+                                                 "KHR_texture_transform"};
   return names;
 }
 

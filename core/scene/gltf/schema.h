@@ -22,6 +22,7 @@ enum class Kind {
   reference,     // index into the top-level array `target`
   references,    // array of such indices
   referenceMap,  // object: name -> index into `target`
+  integerMap,    // object: name -> integer
   ignored,       // not imported; its content is not checked
 };
 

@@ -102,8 +102,9 @@ uint32_t TextureImporter::add(const TextureReference& reference, bool srgb,
     std::string extensions;
     for (const auto& [name, unused] : texture.extensions)
       extensions += " (" + name + " is not read)";
-    report_.fail(texturePlace + ".source",
-                 fmt::format("is missing{}; an image expected (used by {})", extensions, place));
+    report_.fail(
+        texturePlace + ".source",
+        fmt::format("is missing{}; a PNG or JPEG expected (used by {})", extensions, place));
   }
   if (static_cast<size_t>(texture.source) >= model.images.size()) {
     report_.fail(texturePlace + ".source",

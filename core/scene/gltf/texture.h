@@ -1,6 +1,9 @@
 // Textures of materials: decoded images, samplers, KHR_texture_transform.
 #pragma once
 
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/gltf/document.h"
@@ -25,6 +28,11 @@ class TextureImporter {
   // `place` is that of the textureInfo, for error lines.
   uint32_t add(const TextureReference& reference, bool srgb, const std::string& place);
 
+  // Adds a use of the roughness 1 - glossiness x alpha of an image, in the channel where
+  // RL_TEX_METALLIC_ROUGHNESS has it; blue is 1.
+  uint32_t addRoughness(const TextureReference& reference, double glossiness,
+                        const std::string& place);
+
   // Reports broken images that no supported slot uses, without decoding them.
   void checkUnusedImages();
 
@@ -35,6 +43,7 @@ class TextureImporter {
   Scene& scene_;
   Report& report_;
   std::vector<uint32_t> sceneImage_;  // by glTF image; RL_INVALID: not decoded yet
+  std::map<std::pair<uint32_t, double>, uint32_t> roughnessImage_;  // by image and glossiness
 };
 
 }  // namespace restlab::gltf

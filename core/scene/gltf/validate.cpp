@@ -230,10 +230,11 @@ class Walker {
         forEach(value, [&](json& item) { walkReference(item, field); });
         break;
       case Kind::referenceMap:
+      case Kind::integerMap:
         if (!value.is_object()) failType(value, "an object");
         for (auto& [key, item] : value.items()) {
           place_.push(key);
-          walkReference(item, field);
+          field.kind == Kind::referenceMap ? walkReference(item, field) : walkInteger(item, field);
           place_.pop();
         }
         break;

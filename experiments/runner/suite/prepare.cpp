@@ -201,8 +201,9 @@ std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config) {
   const Scene& source = prepared.scene->source();
-  const std::string settings =
-      isSceneFile(source.source) ? splitSceneSettings(source.name).second : "";
+  const std::string settings = isSceneFile(source.source) ? splitSceneSettings(source.name).second
+                               : source.variant           ? "variant=" + *source.variant
+                                                          : "";
   std::map<std::string, std::string> words = {
       {"program", "restlab"},
       {"scene", source.name},
