@@ -18,7 +18,7 @@ namespace {
 
 // The functions of a kernel, as in core/backend/cpu_kernel.inl.
 struct Ctx {
-  static constexpr uint kFeatures = RL_FEATURE_ALL & ~RL_FEATURE_MULTISCATTER;
+  static constexpr FeatureMask kFeatures = RL_FEATURE_ALL & ~RL_FEATURE_MULTISCATTER;
 
   const SceneData& gScene;
   const FrameData& gFrame;

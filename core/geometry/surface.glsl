@@ -252,14 +252,14 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = material.baseColor;
   s.sigmaBeyond = vec3(0.0f, 0.0f, 0.0f);
 
-  if (RL_HAS(RL_FEATURE_CLOSURES) && material.closure != RL_CLOSURE_GLTF) {
+  if (RL_HAS_CLOSURES && material.closure != RL_CLOSURE_GLTF) {
     s.bsdf = bsdfNone();
     if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return s;
     s.bsdf.closure = material.closure;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
       s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
 #ifdef RL_KEEPS_MIXTURE
-    if (RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
+    if (RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
       mixtureLoad(s.bsdf, at, hit.instance, hit.primitive);
       return s;
     }

@@ -142,9 +142,7 @@ RL_FN vec3 bsdfSumLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) asItIsL, RL_
 }
 
 // Returns whether a closure scatters (core/shading/closures), not the lobes of glTF.
-RL_FN bool bsdfIsClosure(RL_IN(Bsdf) b) {
-  return RL_HAS(RL_FEATURE_CLOSURES) && b.closure != RL_CLOSURE_GLTF;
-}
+RL_FN bool bsdfIsClosure(RL_IN(Bsdf) b) { return RL_HAS_CLOSURES && b.closure != RL_CLOSURE_GLTF; }
 
 // The shading normal of a closure. Closures take no mirrored directions: light that a facet sends
 // through the face is absorbed.
@@ -212,7 +210,7 @@ RL_FN vec3 bsdfEvalAndPdfOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nSha
 // Sums over the materials of a mixture, with one call site for all.
 RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                           RL_IN(vec3) wi, RL_OUT(float) pdf) {
-  if (!RL_HAS(RL_FEATURE_CLOSURE_MIXTURE)) return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
+  if (!RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE)) return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
   bool isMixture = mixtureIs(b);
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
   pdf = 0.0f;
@@ -350,7 +348,7 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
   Bsdf part = b;
   float ofLobe = uLobe;
   uint i = 0u;
-  bool isMixture = RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(b);
+  bool isMixture = RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(b);
   if (isMixture) {
     i = mixturePick(b, ofLobe);
     part = mixtureMaterial(b, i);

@@ -70,7 +70,7 @@ TEST_F(SceneFile, GivesAMaterialOfTheBaseAnotherKind) {
     EXPECT_EQ(std::bit_cast<float>(m.closure[1].words.x), 0.5f) << "the default";
   }
   EXPECT_EQ(changed, 1u);
-  const uint32_t features = CompiledScene::build(scene)->features();
+  const rl::FeatureMask features = CompiledScene::build(scene)->features();
   EXPECT_EQ(features & rl::RL_FEATURE_CLOSURES, rl::RL_FEATURE_CLOSURE_OREN_NAYAR);
 }
 
@@ -269,7 +269,7 @@ radiance = [0.0, 0.0, 1.0]
   ASSERT_TRUE(scene.environment);
   EXPECT_EQ(scene.environment->radiance[0], glm::vec3(0.5f));
   EXPECT_EQ(scene.background, glm::vec3(0.0f, 0.0f, 1.0f));
-  const uint32_t features = CompiledScene::build(scene)->features();
+  const rl::FeatureMask features = CompiledScene::build(scene)->features();
   EXPECT_NE(features & rl::RL_FEATURE_AMBIENT, 0u);
 }
 

@@ -19,7 +19,7 @@ using namespace rl;
 
 // The dialect's functions under a mask that is known only at run time.
 struct MaskedContext {
-  const uint kFeatures;
+  const FeatureMask kFeatures;
   const SceneData& gScene;
   const FrameData& gFrame;
 
@@ -53,7 +53,7 @@ void expectSameSurface(MaskedContext& own, MaskedContext& general, const Hit& hi
 }
 
 TEST(FeatureMask, OwnKernelsSeeWhatTheGeneralOneSees) {
-  uint32_t masks = 0;
+  FeatureMask masks = 0;
   for (uint32_t seed = 1; seed <= 3000; ++seed) {
     Inputs inputs(seed);
     const auto scene = CompiledScene::build(randomSquares(inputs, 1 + inputs.below(3)));
@@ -70,9 +70,9 @@ TEST(FeatureMask, OwnKernelsSeeWhatTheGeneralOneSees) {
       if (HasFatalFailure()) return;
     }
   }
-  constexpr uint32_t expected = RL_FEATURE_AREA_LIGHTS | RL_FEATURE_GLOSSY | RL_FEATURE_TEXTURES |
-                                RL_FEATURE_TRANSMISSION | RL_FEATURE_VOLUME |
-                                RL_FEATURE_EMISSIVE_TEXTURES;
+  constexpr FeatureMask expected = RL_FEATURE_AREA_LIGHTS | RL_FEATURE_GLOSSY |
+                                   RL_FEATURE_TEXTURES | RL_FEATURE_TRANSMISSION |
+                                   RL_FEATURE_VOLUME | RL_FEATURE_EMISSIVE_TEXTURES;
   EXPECT_EQ(masks & expected, expected) << "some feature was never needed";
 }
 

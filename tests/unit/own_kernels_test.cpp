@@ -96,7 +96,7 @@ Scene randomScene(Inputs& inputs) {
 
 // Image after three frames, the last of them with another camera.
 Image imageOf(const std::shared_ptr<const CompiledScene>& scene, const std::string& integrator,
-              KernelChoice kernels, uint32_t& used) {
+              KernelChoice kernels, rl::FeatureMask& used) {
   SessionConfig config;
   config.integrator = integrator;
   config.width = 40;
@@ -113,12 +113,12 @@ Image imageOf(const std::shared_ptr<const CompiledScene>& scene, const std::stri
 }
 
 void expectSameBits(uint32_t firstSeed, uint32_t count, const std::vector<std::string>& methods) {
-  std::set<uint32_t> masks;
+  std::set<rl::FeatureMask> masks;
   for (uint32_t seed = firstSeed; seed < firstSeed + count; ++seed) {
     Inputs inputs(seed);
     const auto scene = CompiledScene::build(randomScene(inputs));
     for (const std::string& method : methods) {
-      uint32_t own = 0, general = 0;
+      rl::FeatureMask own = 0, general = 0;
       const Image a = imageOf(scene, method, KernelChoice::exact, own);
       const Image b = imageOf(scene, method, KernelChoice::general, general);
       EXPECT_EQ(own, scene->features());
@@ -137,7 +137,7 @@ TEST(OwnKernels, RenderWhatTheGeneralOnesDo) {
   // Glass without media: light samples of paths that are replayed once depended on the kernel.
   constexpr uint32_t seed = 4;
   Inputs inputs(seed);
-  const uint32_t needed = CompiledScene::build(randomScene(inputs))->features();
+  const rl::FeatureMask needed = CompiledScene::build(randomScene(inputs))->features();
   EXPECT_NE(needed & rl::RL_FEATURE_TRANSMISSION, 0u);
   EXPECT_EQ(needed & rl::RL_FEATURE_VOLUME, 0u);
   expectSameBits(seed, 1, {"restir_pt"});

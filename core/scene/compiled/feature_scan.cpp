@@ -27,9 +27,9 @@ glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
 
 bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
 
-uint32_t scanClosure(const SceneMaterial& material) {
+rl::FeatureMask scanClosure(const SceneMaterial& material) {
   const ClosureInfo& info = closureRegistry().at(material.data.closure - 1);
-  uint32_t features = rl::RL_FEATURE_GLOSSY | info.feature;
+  rl::FeatureMask features = rl::RL_FEATURE_GLOSSY | info.feature;
   for (const ClosureValue& value : material.closure) {
     if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
   }
@@ -50,10 +50,10 @@ std::vector<uint32_t> mixedMaterials(const SceneMaterial& material) {
 }
 
 // Features that the material needs on any mesh; emission and alpha also depend on the mesh.
-uint32_t scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
+rl::FeatureMask scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
   const rl::Material& m = material.data;
   const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
-  uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
+  rl::FeatureMask features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
   if (!scatters) return features;
   if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
     features |= rl::RL_FEATURE_NORMAL_MAPS;
@@ -153,8 +153,8 @@ bool hasSmoothNormals(const MeshGeometry& mesh) {
   });
 }
 
-uint32_t scanLights(const Scene& scene) {
-  uint32_t features = 0;
+rl::FeatureMask scanLights(const Scene& scene) {
+  rl::FeatureMask features = 0;
   for (const PunctualLight& light : scene.lights) {
     if (isPositive(light.intensity)) features |= rl::RL_FEATURE_PUNCTUAL_LIGHTS;
   }
@@ -168,8 +168,8 @@ uint32_t scanLights(const Scene& scene) {
 
 }  // namespace
 
-uint32_t scanFeatures(const Scene& scene) {
-  uint32_t features = scanLights(scene);
+rl::FeatureMask scanFeatures(const Scene& scene) {
+  rl::FeatureMask features = scanLights(scene);
   TextureRanges ranges(scene);
   std::vector<uint32_t> uses(scene.geometries.size(), 0);
   std::vector<char> isMaterialSeen(scene.materials.size(), 0);
