@@ -35,6 +35,14 @@ const FeatureMask RL_FEATURE_MULTISCATTER = 8192u;    // multiple-scattering com
 const FeatureMask RL_FEATURE_AMBIENT = 16384u;        // light from everywhere that nothing shadows
 const FeatureMask RL_FEATURE_SCATTERING = 32768u;     // media that scatter inside bodies
 const FeatureMask RL_FEATURE_LIGHT_TREE = 65536u;     // receivers choose lamps by a hierarchy
+const FeatureMask RL_FEATURE_CLEARCOAT = 131072u;     // layers of glTF's extensions
+const FeatureMask RL_FEATURE_SHEEN = 262144u;
+const FeatureMask RL_FEATURE_ANISOTROPY = 524288u;
+const FeatureMask RL_FEATURE_IRIDESCENCE = 1048576u;
+const FeatureMask RL_FEATURE_DIFFUSE_TRANSMISSION = 2097152u;
+const FeatureMask RL_FEATURE_DISPERSION = 4194304u;
+// Any of these layers; in hexadecimal, as cmake/kernels.cmake reads single bits alone.
+const FeatureMask RL_FEATURE_LAYERS = 0x7e0000u;
 // From bit 33 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
 // them), RL_FEATURE_GLTF and RL_FEATURE_ALL are made of closures.list. Kernels ask for kinds by
 // RL_HAS_CLOSURE: on the GPU they have a word of their own.

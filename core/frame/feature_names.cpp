@@ -10,12 +10,29 @@ namespace restlab {
 namespace {
 
 // Kinds of closures follow.
-const std::array<const char*, 17> kFeatureNames = {
-    "area_lights",       "punctual_lights", "environment", "glossy",
-    "transmission",      "volume",          "textures",    "normal_maps",
-    "emissive_textures", "vertex_colors",   "alpha",       "instances",
-    "smooth_normals",    "multiscatter",    "ambient",     "scattering",
-    "light_tree"};
+const std::array<const char*, 23> kFeatureNames = {"area_lights",
+                                                   "punctual_lights",
+                                                   "environment",
+                                                   "glossy",
+                                                   "transmission",
+                                                   "volume",
+                                                   "textures",
+                                                   "normal_maps",
+                                                   "emissive_textures",
+                                                   "vertex_colors",
+                                                   "alpha",
+                                                   "instances",
+                                                   "smooth_normals",
+                                                   "multiscatter",
+                                                   "ambient",
+                                                   "scattering",
+                                                   "light_tree",
+                                                   "clearcoat",
+                                                   "sheen",
+                                                   "anisotropy",
+                                                   "iridescence",
+                                                   "diffuse_transmission",
+                                                   "dispersion"};
 
 static_assert(((rl::FeatureMask{1} << kFeatureNames.size()) - 1u) ==
               (rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES));

@@ -65,6 +65,10 @@ RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
   return clamp(alpha, 0.0f, 1.0f);
 }
 
+RL_PROTO(void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material,
+                               RL_IN(MaterialPoint) at, RL_IN(Instance) inst, RL_IN(TriangleW) t,
+                               RL_IN(vec3) normalW))
+
 // The tangent of a normal map where the mesh has none: dp/du of the triangle (glTF asks for
 // MikkTSpace; the difference is the interpolation of tangents across triangles).
 RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
@@ -228,6 +232,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     float len2 = dot(n, n);
     if (len2 > 0.0f) nShade = n * (1.0f / sqrt(len2));
   }
+  vec3 nVertex = nShade;
   if (RL_HAS(RL_FEATURE_NORMAL_MAPS) && material.textures[RL_TEX_NORMAL] != RL_INVALID) {
     nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
   }
@@ -268,6 +273,8 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     return s;
   }
   s.bsdf = materialLobes(material, isFront, contrast);
+  if (RL_HAS(RL_FEATURE_LAYERS) && (material.flags & RL_MATERIAL_LAYERS) != 0u)
+    surfaceAddLayers(s, material, at, inst, t, nVertex);
   return s;
 }
 

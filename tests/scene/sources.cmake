@@ -12,6 +12,7 @@ set(RL_SCENE_TESTS
   scene/gltf_errors_test.cpp
   scene/gltf_geometry_test.cpp
   scene/gltf_glb_test.cpp
+  scene/gltf_layers_test.cpp
   scene/gltf_material_test.cpp
   scene/gltf_nodes_test.cpp
   scene/gltf_limits_test.cpp

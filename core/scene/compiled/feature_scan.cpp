@@ -36,6 +36,34 @@ rl::FeatureMask scanClosure(const SceneMaterial& material) {
   return features;
 }
 
+// Features of the layers of glTF's extensions. They look at all that the lobes below have.
+rl::FeatureMask scanLayers(const SceneMaterial& material) {
+  const rl::Material& m = material.data;
+  if ((m.flags & rl::RL_MATERIAL_LAYERS) == 0) return 0;
+  rl::FeatureMask features = rl::RL_FEATURE_GLOSSY;
+  const auto add = [&](uint32_t flag, rl::FeatureMask needed) {
+    if ((m.flags & flag) != 0) features |= needed;
+  };
+  add(rl::RL_MATERIAL_CLEARCOAT, rl::RL_FEATURE_CLEARCOAT);
+  add(rl::RL_MATERIAL_SHEEN, rl::RL_FEATURE_SHEEN);
+  add(rl::RL_MATERIAL_ANISOTROPY, rl::RL_FEATURE_ANISOTROPY);
+  add(rl::RL_MATERIAL_IRIDESCENCE, rl::RL_FEATURE_IRIDESCENCE);
+  // Light samples behind a surface are a matter of the second.
+  add(rl::RL_MATERIAL_DIFFUSE_TRANSMISSION,
+      rl::RL_FEATURE_DIFFUSE_TRANSMISSION | rl::RL_FEATURE_TRANSMISSION);
+  add(rl::RL_MATERIAL_DISPERSION, rl::RL_FEATURE_DISPERSION);
+  if (material.closure.at(rl::RL_LAYER_CLEARCOAT_NORMAL).texture != rl::RL_INVALID)
+    features |= rl::RL_FEATURE_NORMAL_MAPS;
+  for (const ClosureValue& value : material.closure) {
+    if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
+  }
+  for (uint32_t slot = 0; slot < rl::RL_TEX_COUNT; ++slot) {
+    if (slot != rl::RL_TEX_NORMAL && slot != rl::RL_TEX_EMISSIVE && hasTexture(m, slot))
+      features |= rl::RL_FEATURE_TEXTURES;
+  }
+  return features;
+}
+
 // Materials that a material mixes.
 std::vector<uint32_t> mixedMaterials(const SceneMaterial& material) {
   std::vector<uint32_t> mixed;
@@ -59,6 +87,7 @@ rl::FeatureMask scanSurface(const SceneMaterial& material, TextureRanges& ranges
     features |= rl::RL_FEATURE_NORMAL_MAPS;
   if (m.closure != rl::RL_CLOSURE_GLTF) return features | scanClosure(material);
 
+  features |= scanLayers(material);
   const TexelRange& metalRange = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
   const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
   const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
@@ -102,7 +131,10 @@ bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
   const bool alwaysTransmits =
       m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).low[0] > 0.0f &&
       m.metallic * range.high[2] < 1.0f;
-  return (isMetal || isCoated) && roughness * roughness >= rl::RL_ALPHA_FLOOR && !alwaysTransmits;
+  // Facets stretched along the tangent are rough along one axis.
+  const bool isRough =
+      roughness * roughness >= rl::RL_ALPHA_FLOOR || (m.flags & rl::RL_MATERIAL_ANISOTROPY) != 0;
+  return (isMetal || isCoated) && isRough && !alwaysTransmits;
 }
 
 bool emits(const rl::Material& m, TextureRanges& ranges) {
