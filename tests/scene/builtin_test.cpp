@@ -25,18 +25,18 @@ fs::path sharedScene(const std::string& path) {
   return fs::exists(root / path) ? root / path : fs::path();
 }
 
-const rl::Material& materialOf(const Scene& scene, const std::string& instance) {
+const rl::Material& builtinMaterialOf(const Scene& scene, const std::string& instance) {
   return scene.materials.at(test::instanceNamed(scene, instance).material).data;
 }
 
 TEST(CornellBox, IsThePublishedOne) {
   const Scene scene = makeBuiltinScene("cornell-box");
   EXPECT_EQ(test::worldTriangles(scene).size(), 38u);
-  EXPECT_EQ(materialOf(scene, "Floor").baseColor, glm::vec3(0.725f, 0.71f, 0.68f));
-  EXPECT_EQ(materialOf(scene, "LeftWall").baseColor, glm::vec3(0.63f, 0.065f, 0.05f));
-  EXPECT_EQ(materialOf(scene, "RightWall").baseColor, glm::vec3(0.14f, 0.45f, 0.091f));
-  EXPECT_EQ(materialOf(scene, "Light").emission, glm::vec3(17.0f, 12.0f, 4.0f));
-  EXPECT_EQ(materialOf(scene, "Light").baseColor, glm::vec3(0.0f));
+  EXPECT_EQ(builtinMaterialOf(scene, "Floor").baseColor, glm::vec3(0.725f, 0.71f, 0.68f));
+  EXPECT_EQ(builtinMaterialOf(scene, "LeftWall").baseColor, glm::vec3(0.63f, 0.065f, 0.05f));
+  EXPECT_EQ(builtinMaterialOf(scene, "RightWall").baseColor, glm::vec3(0.14f, 0.45f, 0.091f));
+  EXPECT_EQ(builtinMaterialOf(scene, "Light").emission, glm::vec3(17.0f, 12.0f, 4.0f));
+  EXPECT_EQ(builtinMaterialOf(scene, "Light").baseColor, glm::vec3(0.0f));
   for (const SceneMaterial& m : scene.materials) {
     EXPECT_EQ(m.data.specular, 0.0f) << m.name;
     EXPECT_EQ(m.data.metallic, 0.0f) << m.name;
@@ -98,7 +98,7 @@ TEST(CornellBox, AgreesWithTheGateScene) {
   for (const MeshInstance& instance : gate.instances) {
     SCOPED_TRACE(instance.name);
     const rl::Material& a = gate.materials.at(instance.material).data;
-    const rl::Material& b = materialOf(scene, instance.name);
+    const rl::Material& b = builtinMaterialOf(scene, instance.name);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(a.baseColor[c], b.baseColor[c], 1e-6);
       EXPECT_NEAR(a.emission[c], b.emission[c], 1e-5);
@@ -149,7 +149,7 @@ TEST(SphereFurnace, IsConvexWhiteAndEvenlyLit) {
       ASSERT_LT(glm::dot(normal, glm::dvec3(v) - solid[i].p0), 1e-6);
     }
   }
-  EXPECT_EQ(materialOf(scene, "solid").baseColor, glm::vec3(1.0f));
+  EXPECT_EQ(builtinMaterialOf(scene, "solid").baseColor, glm::vec3(1.0f));
   EXPECT_TRUE(scene.geometries.at(0).normals.empty());
   ASSERT_TRUE(scene.environment.has_value());
   for (const glm::vec3& texel : scene.environment->radiance) EXPECT_EQ(texel, glm::vec3(1.0f));
