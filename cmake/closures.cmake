@@ -1,6 +1,6 @@
 # core/shading/closures/closures.list: the kinds of closures beside glTF's, one name a line. Writes into
 # `closures` of the folder of generated files:
-#   list.h        RL_CLOSURE_* and a feature bit of each
+#   list.h        RL_CLOSURE_* and a feature bit of each, from bit 33 on
 #   switch.glsl   the files, and the functions that call the one of a surface
 #   declared.inl  what each file says about itself, for core/scene/closure_info.cpp
 
@@ -50,6 +50,7 @@ function(rl_add_closures)
   math(EXPR gltf "${scene} & ~(${RL_FEATURE_BIT_AMBIENT} | ${RL_FEATURE_BIT_SCATTERING} | ${RL_FEATURE_BIT_LIGHT_TREE})")
   set(names ${RL_FEATURE_NAMES})
   set(constants "const uint RL_CLOSURE_GLTF = 0u;  // the lobes of core/shading/bsdf.glsl\n")
+  set(features "")
   set(kinds 0)
   set(number 0)
   set(includes "")
@@ -59,14 +60,14 @@ function(rl_add_closures)
   set(declared "")
   foreach(name IN LISTS closures)
     math(EXPR number "${number} + 1")
-    math(EXPR value "1 << ${bit}")
-    math(EXPR bit "${bit} + 1")
+    math(EXPR value "1 << (32 + ${number})")
     math(EXPR kinds "${kinds} | ${value}")
     string(TOUPPER ${name} upper)
     rl_closure_prefix(${name} prefix)
     list(APPEND names CLOSURE_${upper})
     set(RL_FEATURE_BIT_CLOSURE_${upper} ${value} PARENT_SCOPE)
-    string(APPEND constants "const uint RL_CLOSURE_${upper} = ${number}u;\nconst uint RL_FEATURE_CLOSURE_${upper} = ${value}u;\n")
+    string(APPEND constants "const uint RL_CLOSURE_${upper} = ${number}u;\n")
+    string(APPEND features "const FeatureMask RL_FEATURE_CLOSURE_${upper} = ${value}ull;\n")
     set(unless "#ifndef RL_LACKS_CLOSURE_${number}\n")
     string(APPEND declared "RL_CLOSURE_INFO(${name}, RL_CLOSURE_${upper}, RL_FEATURE_CLOSURE_${upper})\n#include \"core/shading/closures/${name}.glsl\"\nRL_CLOSURE_INFO_END\n")
     # A mixture calls the switch, so it cannot stand in it: core/dialect/order.glsl includes it later.
@@ -75,13 +76,14 @@ function(rl_add_closures)
       continue()
     endif()
     string(APPEND includes "${unless}#include \"core/shading/closures/${name}.glsl\"\n#endif\n")
-    set(is "RL_HAS(RL_FEATURE_CLOSURE_${upper}) && b.closure == RL_CLOSURE_${upper}")
+    set(is "RL_HAS_CLOSURE(RL_CLOSURE_${upper}) && b.closure == RL_CLOSURE_${upper}")
     string(APPEND loads "${unless}  if (${is}) ${prefix}Load(b, at);\n#endif\n")
     string(APPEND evals "${unless}  if (${is}) return ${prefix}Eval(b, woL, wiL, pdf);\n#endif\n")
     string(APPEND samples "${unless}  if (${is}) return ${prefix}Sample(b, woL, uLobe, u);\n#endif\n")
   endforeach()
-  if(bit GREATER 31)
-    message(FATAL_ERROR "${bit} features: at most 31 fit into a mask")
+  # cmake's numbers have a sign.
+  if(bit GREATER 32 OR number GREATER 30)
+    message(FATAL_ERROR "${bit} features, ${number} closures: at most 32 and 30 fit into a mask")
   endif()
   math(EXPR all "${scene} | ${kinds}")
   set(RL_FEATURE_NAMES ${names} PARENT_SCOPE)
@@ -99,10 +101,12 @@ function(rl_add_closures)
 RL_NAMESPACE_BEGIN
 
 @constants@const uint RL_CLOSURE_COUNT = @number@u;  // without glTF's
-const uint RL_FEATURE_CLOSURES = @kinds@u;
-const uint RL_FEATURE_GLTF = @gltf@u;  // all that glTF can ask for
-const uint RL_FEATURE_ALL = @all@u;
-const uint RL_FEATURE_BITS = @bit@u;
+#ifdef __cplusplus
+@features@const FeatureMask RL_FEATURE_CLOSURES = @kinds@ull;
+const FeatureMask RL_FEATURE_GLTF = @gltf@u;  // all that glTF can ask for
+const FeatureMask RL_FEATURE_ALL = @all@ull;
+const uint RL_FEATURE_CLOSURE_SHIFT = 32u;  // kind i of a closure has the bit i above
+#endif
 
 RL_NAMESPACE_END
 

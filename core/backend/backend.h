@@ -48,7 +48,7 @@ struct BackendOptions {
 // A kernel that was made ready for a device.
 struct KernelReport {
   std::string kernel;
-  uint32_t mask = 0;
+  rl::FeatureMask mask = 0;
   bool fromDisk = false;   // the SPIR-V, or the CPU's code, came from the disk cache
   double compileMs = 0.0;  // dialect to SPIR-V, or to the CPU's code
   double driverMs = 0.0;   // SPIR-V to code
@@ -65,13 +65,13 @@ struct StartupReport {
 // A kernel for a mask of features.
 struct KernelUse {
   std::string kernel;
-  uint32_t mask = 0;
+  rl::FeatureMask mask = 0;
 };
 
 // One pass of a frame: a kernel over all pixels, or over entries.
 struct PassRun {
   std::string kernel;
-  uint32_t mask = 0;
+  rl::FeatureMask mask = 0;
   // In the order of the kernel's Buffers struct; kNoBuffer binds null.
   std::vector<BufferId> buffers;
   std::vector<std::byte> params;
@@ -106,7 +106,7 @@ class Backend {
 
   // The mask of the specialisation that serves `needed`; throws Error (badUsage) for unknown
   // kernels.
-  virtual uint32_t maskFor(const std::string& kernel, uint32_t needed) const = 0;
+  virtual rl::FeatureMask maskFor(const std::string& kernel, rl::FeatureMask needed) const = 0;
   // Compiles kernels with the masks that maskFor() gave, where that takes long and several can be
   // compiled at once. Returns false if one cannot be compiled: maskFor() then gives masks of
   // kernels that are there.

@@ -18,7 +18,7 @@ namespace {
 
 // The functions of a kernel, as in core/backend/cpu_kernel.inl.
 struct Ctx {
-  static constexpr uint kFeatures = RL_FEATURE_ALL & ~RL_FEATURE_MULTISCATTER;
+  static constexpr FeatureMask kFeatures = RL_FEATURE_ALL & ~RL_FEATURE_MULTISCATTER;
 
   const SceneData& gScene;
   const FrameData& gFrame;
@@ -99,9 +99,11 @@ BsdfDraw BsdfProbe::draw(const glm::dvec3& wo, double uLobe, const glm::dvec2& u
 
 double BsdfProbe::alpha() const { return impl_->bsdf.alpha; }
 bool BsdfProbe::hasDelta() const { return (impl_->bsdf.lobes & rl::RL_LOBE_ANY_DELTA) != 0u; }
-bool BsdfProbe::hasSpecular() const { return (impl_->bsdf.lobes & rl::RL_LOBE_SPECULAR) != 0u; }
+bool BsdfProbe::hasSpecular() const {
+  return (impl_->bsdf.lobes & (rl::RL_LOBE_SPECULAR | rl::RL_LOBE_COAT)) != 0u;
+}
 bool BsdfProbe::hasTransmission() const {
-  return (impl_->bsdf.lobes & rl::RL_LOBE_ANY_TRANSMISSION) != 0u;
+  return (impl_->bsdf.lobes & rl::RL_LOBE_ANY_PASSING) != 0u;
 }
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <deque>
@@ -110,8 +111,8 @@ class CpuBackend final : public Backend {
   }
 
   // A unit of its own where no built-in kernel has exactly these features.
-  uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
-    const uint32_t builtIn = findBuiltIn(kernel, needed).mask;
+  rl::FeatureMask maskFor(const std::string& kernel, rl::FeatureMask needed) const override {
+    const rl::FeatureMask builtIn = findBuiltIn(kernel, needed).mask;
     if (!isExact_ || !hasFeatures(kernel)) return builtIn;
     const bool isReady = kernelUnits().find({kernel, needed}) != nullptr;
     if (isReady || builtIn == needed || kernelUnits().areThere()) return needed;
@@ -160,14 +161,14 @@ class CpuBackend final : public Backend {
     if (rayTracing_ == "bvh") scene_->bindBvh();
   }
 
-  const rl::CpuKernelInfo& findBuiltIn(const std::string& kernel, uint32_t needed) const {
+  const rl::CpuKernelInfo& findBuiltIn(const std::string& kernel, rl::FeatureMask needed) const {
     const rl::CpuKernelInfo* info = rl::findCpuKernel(kernel.c_str(), needed, rayTracing_.c_str());
     if (info == nullptr) failUsage("no kernel '" + kernel + "' in this build");
     return *info;
   }
 
   // The kernel with exactly the mask, or a built-in one with more features.
-  rl::CpuKernelEntry find(const std::string& kernel, uint32_t mask) const {
+  rl::CpuKernelEntry find(const std::string& kernel, rl::FeatureMask mask) const {
     const rl::CpuKernelInfo& builtIn = findBuiltIn(kernel, mask);
     if (builtIn.mask == mask) return builtIn.entry;
     const rl::CpuKernelEntry unit = kernelUnits().find({kernel, mask});
@@ -307,7 +308,7 @@ bool registerCpuKernels(CpuKernelTable table) {
   return true;
 }
 
-const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace) {
+const CpuKernelInfo* findCpuKernel(const char* name, FeatureMask needed, const char* trace) {
   const CpuKernelTable table = cpuKernelTable();
   const CpuKernelInfo* best = nullptr;
   for (uint32_t i = 0; i < table.count; ++i) {
@@ -315,8 +316,7 @@ const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char
     if (std::strcmp(row.name, name) != 0 || std::strcmp(row.trace, trace) != 0 ||
         (row.mask & needed) != needed)
       continue;
-    if (best == nullptr || __builtin_popcount(row.mask) < __builtin_popcount(best->mask))
-      best = &row;
+    if (best == nullptr || std::popcount(row.mask) < std::popcount(best->mask)) best = &row;
   }
   return best;
 }

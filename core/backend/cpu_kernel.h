@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/dialect/features.h"
 #include "core/dialect/types.h"
 
 namespace rl {
@@ -34,7 +35,7 @@ struct CpuKernelInfo {
   const char* name;
   const char* maskName;
   const char* trace;  // ray tracing: "embree" or "bvh"
-  uint32_t mask;
+  FeatureMask mask;
   CpuKernelEntry entry;
 };
 
@@ -49,6 +50,7 @@ bool registerCpuKernels(CpuKernelTable table);
 
 // The built-in kernel with the smallest mask that covers `needed`; null when there is none.
 // The project's own hierarchy is compiled into the general mask only.
-const CpuKernelInfo* findCpuKernel(const char* name, uint32_t needed, const char* trace = "embree");
+const CpuKernelInfo* findCpuKernel(const char* name, FeatureMask needed,
+                                   const char* trace = "embree");
 
 }  // namespace rl

@@ -24,9 +24,9 @@ namespace {
 #define RL_HEALTH(kind) (++gCounters.health[kind])
 #define RL_COUNT_RAY(mode) (++((mode) == RL_RAY_SHADOW ? gCounters.raysShadow : gCounters.raysPath))
 
-template <uint FEATURES>
+template <FeatureMask FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
+  static constexpr FeatureMask kFeatures = FEATURES;
 
   const SceneData& gScene;
   const FrameData& gFrame;
@@ -40,7 +40,7 @@ struct Ctx {
 #include RL_KERNEL_FILE
 };
 
-template <uint FEATURES>
+template <FeatureMask FEATURES>
 void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCounters& counters) {
   Ctx<FEATURES> ctx{*args.scene,
                     *args.frame,
@@ -54,7 +54,7 @@ void runTile(const CpuKernelArgs& args, const CpuKernelTile& tile, CpuKernelCoun
 }
 
 // Inlines every function but those of RL_FN_OUTLINE.
-template <uint FEATURES>
+template <FeatureMask FEATURES>
 __attribute__((flatten)) void runTileInlined(const CpuKernelArgs& args, const CpuKernelTile& tile,
                                              CpuKernelCounters& counters) {
   runTile<FEATURES>(args, tile, counters);
@@ -62,7 +62,7 @@ __attribute__((flatten)) void runTileInlined(const CpuKernelArgs& args, const Cp
 
 // Kernels without lobes are small: inlined as a whole they are 6 to 9 % faster. Others are not,
 // and would take three times as long to compile.
-template <uint FEATURES>
+template <FeatureMask FEATURES>
 constexpr CpuKernelEntry entryOf() {
   if constexpr ((FEATURES & RL_FEATURE_GLOSSY) == 0u) {
     return runTileInlined<FEATURES>;

@@ -17,7 +17,8 @@ constexpr const char* kText = R"(#version 460
 #include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
-layout(constant_id = 0) const uint kFeatures = RL_FEATURE_ALL;
+layout(constant_id = 0) const uint kFeatures = 0xffffffffu;
+layout(constant_id = 1) const uint kClosures = 0xffffffffu;
 
 // Each address leads to one struct: push constants hold 128 bytes on some devices.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlSceneRef {{
@@ -115,6 +116,8 @@ void rlWriteUvec4(uint64_t ref, uint i, uvec4 value) {{
 #define RL_GREATER(a, b) max(a, b)
 #endif
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
+#define RL_HAS_CLOSURES (kClosures != 0u)
+#define RL_HAS_CLOSURE(kind) ((kClosures & (1u << (kind))) != 0u)
 // Health is rare; rays are counted by each thread and added up once by each subgroup.
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
 uint rlRaysPath = 0u;
@@ -139,15 +142,20 @@ void main() {{
 )";
 
 // For the switch that cmake/closures.cmake writes.
-std::string lackedClosures(uint32_t features) {
+std::string lackedClosures(rl::FeatureMask features) {
   std::string lines;
-  uint32_t bit = rl::RL_FEATURE_CLOSURES & (~rl::RL_FEATURE_CLOSURES + 1u);  // of the first kind
-  for (uint32_t kind = 1; kind <= rl::RL_CLOSURE_COUNT; ++kind, bit <<= 1)
-    if ((features & bit) == 0) lines += fmt::format("#define RL_LACKS_CLOSURE_{}\n", kind);
+  const uint32_t kinds = glslFeatureWords(features)[1];
+  for (uint32_t kind = 1; kind <= rl::RL_CLOSURE_COUNT; ++kind)
+    if ((kinds >> kind & 1u) == 0) lines += fmt::format("#define RL_LACKS_CLOSURE_{}\n", kind);
   return lines;
 }
 
 }  // namespace
+
+std::array<uint32_t, 2> glslFeatureWords(rl::FeatureMask features) {
+  return {static_cast<uint32_t>(features),
+          static_cast<uint32_t>(features >> rl::RL_FEATURE_CLOSURE_SHIFT)};
+}
 
 std::string glslKernelSource(const GlslKernel& kernel) {
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),

@@ -19,7 +19,7 @@ struct GlslKernel {
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
   // Closures that are not among these are left out of the text: drivers take long over code that a
   // constant makes dead.
-  uint32_t features = rl::RL_FEATURE_ALL;
+  rl::FeatureMask features = rl::RL_FEATURE_ALL;
 };
 
 // Implementation of traceRay().
@@ -76,8 +76,11 @@ struct GlslPushConstants {
   uint32_t width = 0, height = 0;
 };
 
+// The words that a feature mask has in a shader: features, and kinds of closures.
+std::array<uint32_t, 2> glslFeatureWords(rl::FeatureMask features);
+
 // The whole compute shader, with #include lines that the compiler's includer resolves against the
-// repository. Specialization constant 0 is the feature mask.
+// repository. Specialization constants 0 and 1 are the words of the feature mask.
 std::string glslKernelSource(const GlslKernel& kernel);
 
 }  // namespace restlab

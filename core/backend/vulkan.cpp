@@ -137,7 +137,7 @@ class VulkanBackend final : public Backend {
     if (buffers_.isPlaced()) bindTexels();
   }
 
-  uint32_t maskFor(const std::string& kernel, uint32_t needed) const override {
+  rl::FeatureMask maskFor(const std::string& kernel, rl::FeatureMask needed) const override {
     find(kernel);
     return needed;  // compiled on demand, with exactly the needed mask
   }
@@ -469,7 +469,7 @@ class VulkanBackend final : public Backend {
   GlslTrace trace_{};
   VulkanBuffers buffers_;
   bool readsTexels_ = false;
-  std::map<std::tuple<std::string, uint32_t, bool>, VkPipeline> pipelines_;
+  std::map<std::tuple<std::string, rl::FeatureMask, bool>, VkPipeline> pipelines_;
   std::map<VkPipeline, uint32_t> bandPixels_;  // pixels per band, if the first took too long
   std::array<Slot, kSlots> slots_;
   uint32_t next_ = 0;

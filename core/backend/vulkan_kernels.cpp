@@ -138,8 +138,9 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
   return result.spirv;
 }
 
-VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
-                                   const SourceReader& read, StartupReport& report) {
+VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& name,
+                                   rl::FeatureMask mask, const SourceReader& read,
+                                   StartupReport& report) {
   const char* reads = kernel.readsTexels ? " texels" : "";
   VkPipeline& known =
       pipelines_[{kernel.header + " " + kernel.file + " " + kernel.traceFile + reads, mask}];
@@ -160,8 +161,10 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   VkShaderModule shader = VK_NULL_HANDLE;
   device_->check(vkCreateShaderModule(device_->handle(), &moduleInfo, nullptr, &shader),
                  "vkCreateShaderModule");
-  const VkSpecializationMapEntry entry{0, 0, sizeof mask};
-  const VkSpecializationInfo specialization{1, &entry, sizeof mask, &mask};
+  const std::array<uint32_t, 2> words = glslFeatureWords(mask);
+  const std::array<VkSpecializationMapEntry, 2> entries = {
+      {{0, 0, sizeof(uint32_t)}, {1, sizeof(uint32_t), sizeof(uint32_t)}}};
+  const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;

@@ -27,7 +27,7 @@ class VulkanKernels {
   // Returns the pipeline of a kernel; compiles it if it is not known yet, and records that in
   // `report`. `read` gives the dialect's files. Throws Error (deviceUnavailable) with file and line
   // if the kernel does not compile.
-  VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, uint32_t mask,
+  VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, rl::FeatureMask mask,
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
 
@@ -62,7 +62,7 @@ class VulkanKernels {
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   Bound primerBound_;
   GpuBuffer primer_;  // zeros: a frame without pixels, and counters
-  std::map<std::pair<std::string, uint32_t>, VkPipeline> pipelines_;  // by files and mask
+  std::map<std::pair<std::string, rl::FeatureMask>, VkPipeline> pipelines_;  // by files and mask
 };
 
 }  // namespace restlab

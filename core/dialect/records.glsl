@@ -77,7 +77,7 @@ RL_FN Material recordMaterial(uint index) {
   m.textures[4] = q6.y;
   m.textures[5] = q6.z;
   m.textures[6] = q6.w;
-  if (RL_HAS(RL_FEATURE_CLOSURES)) {
+  if (RL_HAS_CLOSURES || RL_HAS(RL_FEATURE_LAYERS)) {
     uvec4 q7 = RL_SCENE_UVEC4(gScene.materials, index * 8u + 7u);
     m.closure = q7.x;
     m.firstParameter = q7.y;

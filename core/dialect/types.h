@@ -91,6 +91,14 @@ const uint RL_MATERIAL_ALPHA_BLEND = 8u;   // alpha is coverage
 const uint RL_MATERIAL_THIN = 16u;         // transmission without volume: no refraction
 const uint RL_MATERIAL_BLACK = 32u;        // scatters nothing (a black body)
 const uint RL_MATERIAL_ANISOTROPIC = 64u;  // a closure that looks at the tangent
+// Layers of glTF's extensions: their values are parameters (RL_LAYER_*, core/shading/bsdf.h).
+const uint RL_MATERIAL_CLEARCOAT = 128u;
+const uint RL_MATERIAL_SHEEN = 256u;
+const uint RL_MATERIAL_ANISOTROPY = 512u;
+const uint RL_MATERIAL_IRIDESCENCE = 1024u;
+const uint RL_MATERIAL_DIFFUSE_TRANSMISSION = 2048u;
+const uint RL_MATERIAL_DISPERSION = 4096u;
+const uint RL_MATERIAL_LAYERS = 8064u;  // any of them
 
 // Texture slots of a material.
 const uint RL_TEX_BASE_COLOR = 0u;
@@ -120,7 +128,7 @@ struct Material {
   uint flags;
   uint textures[7];     // index into SceneData::textures, RL_INVALID where the slot is empty
   uint closure;         // RL_CLOSURE_*; 0: the lobes of glTF
-  uint firstParameter;  // of the closure, in SceneData::closureParameters
+  uint firstParameter;  // of the closure or the layers, in SceneData::closureParameters
   uint padding0;
   uint padding1;
 };

@@ -10,26 +10,44 @@ namespace restlab {
 namespace {
 
 // Kinds of closures follow.
-const std::array<const char*, 17> kFeatureNames = {
-    "area_lights",       "punctual_lights", "environment", "glossy",
-    "transmission",      "volume",          "textures",    "normal_maps",
-    "emissive_textures", "vertex_colors",   "alpha",       "instances",
-    "smooth_normals",    "multiscatter",    "ambient",     "scattering",
-    "light_tree"};
+const std::array<const char*, 23> kFeatureNames = {"area_lights",
+                                                   "punctual_lights",
+                                                   "environment",
+                                                   "glossy",
+                                                   "transmission",
+                                                   "volume",
+                                                   "textures",
+                                                   "normal_maps",
+                                                   "emissive_textures",
+                                                   "vertex_colors",
+                                                   "alpha",
+                                                   "instances",
+                                                   "smooth_normals",
+                                                   "multiscatter",
+                                                   "ambient",
+                                                   "scattering",
+                                                   "light_tree",
+                                                   "clearcoat",
+                                                   "sheen",
+                                                   "anisotropy",
+                                                   "iridescence",
+                                                   "diffuse_transmission",
+                                                   "dispersion"};
 
-static_assert(((1u << kFeatureNames.size()) - 1u) ==
+static_assert(((rl::FeatureMask{1} << kFeatureNames.size()) - 1u) ==
               (rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES));
 
 }  // namespace
 
-std::string featureNames(uint32_t mask) {
+std::string featureNames(rl::FeatureMask mask) {
   std::string text;
-  for (uint32_t i = 0; i < rl::RL_FEATURE_BITS; ++i) {
-    if ((mask & (1u << i)) == 0) continue;
+  const auto add = [&](rl::FeatureMask bit, const std::string& name) {
+    if ((mask & bit) == 0) return;
     if (!text.empty()) text += '+';
-    text += i < kFeatureNames.size() ? kFeatureNames[i]
-                                     : closureRegistry()[i - kFeatureNames.size()].name;
-  }
+    text += name;
+  };
+  for (size_t i = 0; i < kFeatureNames.size(); ++i) add(rl::FeatureMask{1} << i, kFeatureNames[i]);
+  for (const ClosureInfo& closure : closureRegistry()) add(closure.feature, closure.name);
   return text.empty() ? "none" : text;
 }
 

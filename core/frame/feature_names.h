@@ -1,12 +1,13 @@
 // Names of the features of a scene or a kernel (core/dialect/features.h).
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "core/dialect/features.h"
 
 namespace restlab {
 
 // Formats features for reports: "textures+alpha", "none".
-std::string featureNames(uint32_t mask);
+std::string featureNames(rl::FeatureMask mask);
 
 }  // namespace restlab

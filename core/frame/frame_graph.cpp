@@ -98,17 +98,17 @@ Buffer FrameGraph::declare(const GraphBuffer& wanted) {
 }
 
 Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elementBytes,
-                          uint32_t features) {
+                          rl::FeatureMask features) {
   return declare({name, "", count, elementBytes, features, false, false});
 }
 
 Buffer FrameGraph::transient(const std::string& name, size_t count, uint32_t elementBytes,
-                             uint32_t features) {
+                             rl::FeatureMask features) {
   return declare({name, "", count, elementBytes, features, false, true});
 }
 
 History FrameGraph::history(const std::string& name, size_t count, uint32_t elementBytes,
-                            uint32_t features) {
+                            rl::FeatureMask features) {
   const Buffer first = declare({name, "", count, elementBytes, features, true, false});
   const Buffer second =
       declare({name + "_previous", "", count, elementBytes, features, true, false});

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dialect/features.h"
 #include "core/frame/part.h"
 
 namespace restlab {
@@ -61,7 +62,7 @@ struct GraphBuffer {
   std::string part;
   size_t count = 0;
   uint32_t elementBytes = 0;
-  uint32_t features = 0;  // allocated only if kernels have one of these features; 0: always
+  rl::FeatureMask features = 0;  // allocated only if kernels have one of these features; 0: always
   bool isHistory = false;
   bool isTransient = false;  // holds nothing between frames
 
@@ -123,14 +124,14 @@ class FrameGraph {
   // Declares a buffer, zero at first; the same one in every frame. Not there if `count` is 0. Its
   // contents stay until a pass writes it.
   Buffer buffer(const std::string& name, size_t count, uint32_t elementBytes,
-                uint32_t features = 0);
+                rl::FeatureMask features = 0);
   // Declares a buffer whose contents nobody needs after the frame's passes, except to look at the
   // frame before the next one begins. It may share memory: shareMemory().
   Buffer transient(const std::string& name, size_t count, uint32_t elementBytes,
-                   uint32_t features = 0);
+                   rl::FeatureMask features = 0);
   // Declares two such buffers, `name` and `name_previous`.
   History history(const std::string& name, size_t count, uint32_t elementBytes,
-                  uint32_t features = 0);
+                  rl::FeatureMask features = 0);
   // Begins a new element of a history: `now` of the last frame becomes `previous`.
   History advance(const History& history);
 

@@ -33,7 +33,7 @@ class Copies {
 }  // namespace
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-                   const ParameterMap& parameters, uint32_t wanted, size_t pixels)
+                   const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels)
     : backend_(backend),
       parts_(std::move(parts)),
       mode_(mode),
@@ -237,7 +237,7 @@ void Pipeline::restore() {
   backend_.copy(pairs);
 }
 
-uint32_t Pipeline::maskOf(const std::string& kernel) {
+rl::FeatureMask Pipeline::maskOf(const std::string& kernel) {
   const auto [mask, isNew] = masks_.try_emplace(kernel);
   if (isNew) mask->second = backend_.maskFor(kernel, wanted_);
   return mask->second;

@@ -25,9 +25,9 @@ class Pipeline {
  public:
   // `wanted`: the features of the kernels. Allocates nothing yet.
   Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-           const ParameterMap& parameters, uint32_t wanted, size_t pixels);
+           const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels);
 
-  uint32_t featuresUsed() const { return used_; }
+  rl::FeatureMask featuresUsed() const { return used_; }
   // Bytes per pixel of each buffer that the kernels in use can touch, rounded up; 0: it uses the
   // memory of another one.
   std::vector<std::pair<std::string, size_t>> bufferBytesPerPixel() const;
@@ -91,7 +91,7 @@ class Pipeline {
   size_t ownBytes(const FrameGraph& graph, size_t index) const;
   BufferId idOf(Buffer buffer) const;
   // Feature mask of the kernel that serves the scene.
-  uint32_t maskOf(const std::string& kernel);
+  rl::FeatureMask maskOf(const std::string& kernel);
   std::vector<KernelUse> kernelsOf(const FrameGraph& graph);
   PassRun runOf(const GraphPass& pass);
   // Parameters that kernels of a part had in the frame begun last.
@@ -115,11 +115,11 @@ class Pipeline {
   std::vector<const PartInfo*> parts_;
   std::string mode_;
   ParameterMap parameters_;
-  uint32_t wanted_ = 0;
-  std::map<std::string, uint32_t> masks_;  // by kernel
+  rl::FeatureMask wanted_ = 0;
+  std::map<std::string, rl::FeatureMask> masks_;  // by kernel
   size_t pixels_ = 0;
   FrameGraph graph_;
-  uint32_t used_ = 0;
+  rl::FeatureMask used_ = 0;
   std::vector<Column> columns_;
   std::vector<BufferId> ids_;       // by buffer of the graph; kNoBuffer: not allocated
   std::deque<Ran> ran_;             // of the frames in flight

@@ -28,7 +28,7 @@ const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", 
 
 // Features of general kernels: all that glTF can ask for. Of closures they have those of the scene,
 // as each lengthens every kernel.
-uint32_t generalFeatures(uint32_t needed) { return rl::RL_FEATURE_GLTF | needed; }
+rl::FeatureMask generalFeatures(rl::FeatureMask needed) { return rl::RL_FEATURE_GLTF | needed; }
 
 // RAII: installs a stop callback for its lifetime.
 class Stops {
@@ -54,7 +54,7 @@ struct Session::Impl {
   std::optional<Pipeline> pipeline;
   HostFilter onHost;  // set by a denoiser that filters on the host
   rl::FrameData frame{};
-  uint32_t needed = 0;
+  rl::FeatureMask needed = 0;
   Image radiance;
   bool isRadianceRead = true;  // `radiance` holds the last frame
   StartupReport startup;
@@ -81,7 +81,7 @@ struct Session::Impl {
   // Creates the pipeline, with the kernels that the backend has or can compile.
   void openPipeline();
   void bindTables(const CompiledScene& of) const;  // of the scene, that this session reads
-  uint32_t wantedFeatures() const;
+  rl::FeatureMask wantedFeatures() const;
   // Opens with another configuration. If that throws, restarts the old configuration with a new
   // history.
   void reopen(const SessionConfig& changed);
@@ -171,7 +171,7 @@ void Session::Impl::bindTables(const CompiledScene& of) const {
   if ((needed & rl::RL_FEATURE_LIGHT_TREE) != 0) of.bindLightTree();
 }
 
-uint32_t Session::Impl::wantedFeatures() const {
+rl::FeatureMask Session::Impl::wantedFeatures() const {
   return config.kernels == KernelChoice::general ? generalFeatures(needed) : needed;
 }
 
@@ -431,7 +431,7 @@ Image Session::aov(const std::string& name) const {
       m.aovBuffers.push_back(m.backend->allocate(pixels * 12));
   }
   if (!m.isAovTraced) {
-    const uint32_t wanted = m.wantedFeatures();
+    const rl::FeatureMask wanted = m.wantedFeatures();
     m.backend->compile({{kAovKernel, m.backend->maskFor(kAovKernel, wanted)}}, m.startup);
     const PassRun pass{kAovKernel, m.backend->maskFor(kAovKernel, wanted), m.aovBuffers,
                        std::vector<std::byte>(4), 0};
@@ -465,8 +465,8 @@ DrawnLights Session::drawnLights() const {
   return restlab::drawnLights(*impl_->scene, words);
 }
 
-uint32_t Session::featuresNeeded() const { return impl_->needed; }
-uint32_t Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
+rl::FeatureMask Session::featuresNeeded() const { return impl_->needed; }
+rl::FeatureMask Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
 size_t Session::codeBytes() const {
   std::map<std::string, size_t> bytes;  // several passes may share a kernel
   for (const KernelUse& use : impl_->pipeline->kernels())

@@ -139,8 +139,8 @@ class Session {
 
   // Lights that light samples were drawn from, since the session was opened or resized.
   DrawnLights drawnLights() const;
-  uint32_t featuresNeeded() const;
-  uint32_t featuresUsed() const;  // by the kernels
+  rl::FeatureMask featuresNeeded() const;
+  rl::FeatureMask featuresUsed() const;  // by the kernels
   // Machine code of the kernels that were compiled for the scene; 0 where all are built in.
   size_t codeBytes() const;
   size_t bytesPerPixel() const;                                   // sum over all buffers

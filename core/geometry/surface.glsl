@@ -65,6 +65,10 @@ RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
   return clamp(alpha, 0.0f, 1.0f);
 }
 
+RL_PROTO(void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material,
+                               RL_IN(MaterialPoint) at, RL_IN(Instance) inst, RL_IN(TriangleW) t,
+                               RL_IN(vec3) normalW))
+
 // The tangent of a normal map where the mesh has none: dp/du of the triangle (glTF asks for
 // MikkTSpace; the difference is the interpolation of tangents across triangles).
 RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
@@ -228,6 +232,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     float len2 = dot(n, n);
     if (len2 > 0.0f) nShade = n * (1.0f / sqrt(len2));
   }
+  vec3 nVertex = nShade;
   if (RL_HAS(RL_FEATURE_NORMAL_MAPS) && material.textures[RL_TEX_NORMAL] != RL_INVALID) {
     nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
   }
@@ -252,14 +257,14 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = material.baseColor;
   s.sigmaBeyond = vec3(0.0f, 0.0f, 0.0f);
 
-  if (RL_HAS(RL_FEATURE_CLOSURES) && material.closure != RL_CLOSURE_GLTF) {
+  if (RL_HAS_CLOSURES && material.closure != RL_CLOSURE_GLTF) {
     s.bsdf = bsdfNone();
     if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return s;
     s.bsdf.closure = material.closure;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
       s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
 #ifdef RL_KEEPS_MIXTURE
-    if (RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
+    if (RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
       mixtureLoad(s.bsdf, at, hit.instance, hit.primitive);
       return s;
     }
@@ -268,6 +273,8 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     return s;
   }
   s.bsdf = materialLobes(material, isFront, contrast);
+  if (RL_HAS(RL_FEATURE_LAYERS) && (material.flags & RL_MATERIAL_LAYERS) != 0u)
+    surfaceAddLayers(s, material, at, inst, t, nVertex);
   return s;
 }
 

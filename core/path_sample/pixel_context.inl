@@ -1,5 +1,5 @@
 // Members of a kernel context that is made for one pixel, as in core/backend/cpu_kernel.inl.
-static constexpr uint kFeatures = RL_FEATURE_ALL;
+static constexpr FeatureMask kFeatures = RL_FEATURE_ALL;
 
 const SceneData& gScene;
 const FrameData& gFrame;

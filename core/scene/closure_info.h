@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/dialect/features.h"
+
 namespace restlab {
 
 struct ClosureParameter {
@@ -22,8 +24,8 @@ struct ClosureParameter {
 
 struct ClosureInfo {
   std::string name;
-  uint32_t kind = 0;     // RL_CLOSURE_*
-  uint32_t feature = 0;  // RL_FEATURE_CLOSURE_*
+  uint32_t kind = 0;            // RL_CLOSURE_*
+  rl::FeatureMask feature = 0;  // RL_FEATURE_CLOSURE_*
   std::string summary;
   std::string source;  // papers
   std::vector<ClosureParameter> parameters;

@@ -46,6 +46,7 @@ add_library(rl_scene_files OBJECT
   scene/gltf/draco_mesh.cpp
   scene/gltf/extensions.cpp
   scene/gltf/instances.cpp
+  scene/gltf/layers.cpp
   scene/gltf/load.cpp
   scene/gltf/material.cpp
   scene/gltf/mesh.cpp

@@ -12,61 +12,26 @@
 
 RL_FN bool bsdfIsBlack(RL_IN(Bsdf) b) { return b.lobes == 0u; }
 
-// Probabilities of drawing the specular and the transmission lobe; the rest goes to the cosine. The
-// probabilities depend on wo alone, so that the density of all lobes together is known.
-RL_FN vec2 bsdfLobeProbabilities(RL_IN(Bsdf) b, float cosO) {
-  if (!RL_HAS(RL_FEATURE_GLOSSY) || (b.lobes & RL_LOBE_ANY_GLOSSY) == 0u) return vec2(0.0f, 0.0f);
-  vec3 f = fresnelOfBsdf(b, cosO);
-  float through = 1.0f - min(rlMax3(f), 1.0f);
-  bool hasSpecular = (b.lobes & (RL_LOBE_SPECULAR | RL_LOBE_SPECULAR_DELTA)) != 0u;
-  bool hasDiffuse = (b.lobes & RL_LOBE_DIFFUSE) != 0u;
-  float specular = hasSpecular ? rlLuminance(f) : 0.0f;
-  float diffuse = hasDiffuse ? rlLuminance(b.diffuse) * through : 0.0f;
-  if (multiscatterApplies(b)) {
-    vec2 shares = multiscatterLuminances(b, cosO);
-    specular = shares.x;
-    diffuse = shares.y;
+// f |cos_i| of the lobe that refracts, or passes a thin sheet.
+RL_FN vec3 bsdfTransmissionEval(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+  if ((b.lobes & RL_LOBE_THIN) != 0u) {
+    // A thin sheet sends the mirrored reflection lobe to the other side.
+    vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
+    vec3 hL = normalize(woL + wiUp);
+    float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
+    return b.transmission * (through * baseReflectionEval(b, woL, wiUp, hL));
   }
-  float transmitted = 0.0f;
-  if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
-    transmitted = rlLuminance(b.transmission) * through;
+  vec3 hL = transmissionHalfVector(woL, wiL, b.eta);
+  float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
+  return b.transmission * (through * baseTransmissionEval(b, woL, wiL, hL));
+}
+
+RL_FN float bsdfTransmissionPdf(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL) {
+  if ((b.lobes & RL_LOBE_THIN) != 0u) {
+    vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
+    return baseReflectionPdf(b, woL, normalize(woL + wiUp));
   }
-  // Give every rough lobe a minimum probability, even if Fresnel at wo leaves it nothing:
-  // microfacets turned towards wo still let light through. Delta lobes have no such facets and keep
-  // exactly their share: clear smooth glass before uniform light has no noise.
-  float least = 0.1f * (specular + diffuse + transmitted);
-  if ((b.lobes & RL_LOBE_SPECULAR) != 0u) specular = max(specular, least);
-  if (hasDiffuse) diffuse = max(diffuse, least);
-  if ((b.lobes & RL_LOBE_TRANSMISSION) != 0u) transmitted = max(transmitted, least);
-  float total = specular + diffuse + transmitted;
-  if (!(total > 0.0f)) return vec2(1.0f, 0.0f);
-  return vec2(specular / total, transmitted / total);
-}
-
-// Share of light that passes the specular layer to the Lambert base and out again. Light enters as
-// 1 - F(o) and leaves, by reciprocity, as 1 - F(i). The product is divided by the mean of 1 - F(i),
-// so that a white base returns all light that enters (Ashikhmin & Shirley 2000; Kelemen &
-// Szirmay-Kalos 2001). The factor 1 - F(h) of glTF's appendix B creates energy: a white base under
-// a layer of ior 1.5 would reflect 1.22 of the light at 80 degrees.
-RL_FN float bsdfBaseShare(RL_IN(Bsdf) b, float cosO, float cosI) {
-  float enters = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosO)), 1.0f);
-  float leaves = 1.0f - min(rlMax3(fresnelOfBsdf(b, cosI)), 1.0f);
-  // The cosine-weighted mean of Schlick's weight is 1/21; the dielectric curve's is at least 0.
-  float mean = rlMax3(b.f0);
-  if ((b.lobes & RL_LOBE_ANY_TRANSMISSION) == 0u) mean += (b.f90 - mean) * (1.0f / 21.0f);
-  return enters * leaves * rlSafeDivide(1.0f, 1.0f - mean);
-}
-
-// Share of Lambert's light that passes the surface on its way out, at the exit of a diffusion
-// profile (core/transport/diffusion.glsl); 1 elsewhere. cosI: above 0.
-RL_FN float bsdfExitShare(RL_IN(Bsdf) b, float cosI) {
-  if (!RL_HAS(RL_FEATURE_SCATTERING) || (b.lobes & RL_LOBE_EXIT) == 0u) return 1.0f;
-  return 1.0f - fresnelDielectric(cosI, b.eta);
-}
-
-// Returns whether a part of the BSDF is sampled by the cosine.
-RL_FN bool bsdfHasCosineLobe(RL_IN(Bsdf) b) {
-  return (b.lobes & RL_LOBE_DIFFUSE) != 0u || multiscatterApplies(b);
+  return baseTransmissionPdf(b, woL, wiL, transmissionHalfVector(woL, wiL, b.eta));
 }
 
 // f |cos_i| of the lobes towards wiL; withCosine: includes the part that is sampled by the cosine.
@@ -77,27 +42,32 @@ RL_FN vec3 bsdfEvalLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool w
     if (woL.z > 0.0f && (b.lobes & RL_LOBE_ANY_GLOSSY) != 0u) {
       vec3 hL = normalize(woL + wiL);
       vec3 fresnel = fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f));
-      if ((b.lobes & RL_LOBE_SPECULAR) != 0u)
-        f += fresnel * ggxReflectionEval(woL, wiL, hL, b.alpha);
+      if ((b.lobes & RL_LOBE_SPECULAR) != 0u) f += fresnel * baseReflectionEval(b, woL, wiL, hL);
+      float passes = 1.0f;
+      if (RL_HAS(RL_FEATURE_CLEARCOAT | RL_FEATURE_SHEEN)) {
+        passes = layersPass(b, woL, wiL);
+        f = f * passes + layersEval(b, woL, wiL, withCosine);
+      }
       if (!withCosine) return f;
-      if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z);
-      f += b.diffuse * (lambertEval(wiL) * bsdfBaseShare(b, woL.z, wiL.z));
+      if (multiscatterApplies(b)) return f + multiscatterEval(b, woL.z, wiL.z) * passes;
+      float share = bsdfBaseShare(b, woL.z, wiL.z);
+      if (RL_HAS(RL_FEATURE_CLEARCOAT | RL_FEATURE_SHEEN)) share *= bsdfLayersShare(b, woL, wiL);
+      f += b.diffuse * (lambertEval(wiL) * share);
     } else if (withCosine) {
       f += b.diffuse * (lambertEval(wiL) * bsdfExitShare(b, wiL.z));
     }
-  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
-             woL.z > 0.0f && wiL.z < 0.0f) {
-    if ((b.lobes & RL_LOBE_THIN) != 0u) {
-      // A thin sheet sends the mirrored reflection lobe to the other side.
-      vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
-      vec3 hL = normalize(woL + wiUp);
-      float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
-      f += b.transmission * (through * ggxReflectionEval(woL, wiUp, hL, b.alpha));
-    } else {
-      vec3 hL = transmissionHalfVector(woL, wiL, b.eta);
-      float through = 1.0f - min(rlMax3(fresnelOfBsdf(b, clamp(dot(woL, hL), 0.0f, 1.0f))), 1.0f);
-      f += b.transmission * (through * transmissionEval(woL, wiL, hL, b.alpha, b.eta));
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && woL.z > 0.0f && wiL.z < 0.0f) {
+    if ((b.lobes & RL_LOBE_TRANSMISSION) != 0u) {
+      if (dispersionIs(b)) {
+        for (uint i = 0u; i < 3u; i = i + 1u)
+          f += dispersionOnly(bsdfTransmissionEval(dispersionChannel(b, i), woL, wiL), i);
+      } else {
+        f += bsdfTransmissionEval(b, woL, wiL);
+      }
     }
+    if (withCosine && diffuseTransmissionIs(b))
+      f += vec3(b.p3) * (lambertEval(-wiL) * bsdfPassingShare(b, woL.z, -wiL.z));
+    f = f * layersPass(b, woL, wiL);
   }
   return f;
 }
@@ -107,21 +77,27 @@ RL_FN float bsdfPdfLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) wiL, bool w
   vec2 p = bsdfLobeProbabilities(b, max(woL.z, 0.0f));
   float pdf = 0.0f;
   if (wiL.z > 0.0f) {
-    if (withCosine && bsdfHasCosineLobe(b)) pdf += (1.0f - p.x - p.y) * lambertPdf(wiL);
+    if (withCosine && bsdfHasCosineLobe(b))
+      pdf += (1.0f - p.x - p.y) * (1.0f - diffuseTransmissionShare(b)) * lambertPdf(wiL);
     if ((b.lobes & RL_LOBE_SPECULAR) != 0u && woL.z > 0.0f) {
       vec3 hL = normalize(woL + wiL);
-      pdf += p.x * ggxReflectionPdf(woL, hL, b.alpha);
+      pdf += p.x * baseReflectionPdf(b, woL, hL);
     }
-  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_TRANSMISSION) != 0u &&
-             woL.z > 0.0f && wiL.z < 0.0f) {
-    if ((b.lobes & RL_LOBE_THIN) != 0u) {
-      vec3 wiUp = vec3(wiL.x, wiL.y, -wiL.z);
-      vec3 hL = normalize(woL + wiUp);
-      pdf += p.y * ggxReflectionPdf(woL, hL, b.alpha);
-    } else {
-      vec3 hL = transmissionHalfVector(woL, wiL, b.eta);
-      pdf += p.y * transmissionPdf(woL, wiL, hL, b.alpha, b.eta);
+  } else if (RL_HAS(RL_FEATURE_TRANSMISSION) && woL.z > 0.0f && wiL.z < 0.0f) {
+    if ((b.lobes & RL_LOBE_TRANSMISSION) != 0u) {
+      if (dispersionIs(b)) {
+        for (uint i = 0u; i < 3u; i = i + 1u)
+          pdf += p.y * (1.0f / 3.0f) * bsdfTransmissionPdf(dispersionChannel(b, i), woL, wiL);
+      } else {
+        pdf += p.y * bsdfTransmissionPdf(b, woL, wiL);
+      }
     }
+    if (withCosine && diffuseTransmissionIs(b))
+      pdf += (1.0f - p.x - p.y) * diffuseTransmissionShare(b) * lambertPdf(-wiL);
+  }
+  if (RL_HAS(RL_FEATURE_CLEARCOAT | RL_FEATURE_SHEEN) && layersAre(b)) {
+    vec2 q = bsdfLayerProbabilities(b, woL);
+    pdf = (1.0f - q.x - q.y) * pdf + layersPdf(b, woL, wiL, q, withCosine);
   }
   return max(pdf, 0.0f);
 }
@@ -142,9 +118,7 @@ RL_FN vec3 bsdfSumLocal(RL_IN(Bsdf) b, RL_IN(vec3) woL, RL_IN(vec3) asItIsL, RL_
 }
 
 // Returns whether a closure scatters (core/shading/closures), not the lobes of glTF.
-RL_FN bool bsdfIsClosure(RL_IN(Bsdf) b) {
-  return RL_HAS(RL_FEATURE_CLOSURES) && b.closure != RL_CLOSURE_GLTF;
-}
+RL_FN bool bsdfIsClosure(RL_IN(Bsdf) b) { return RL_HAS_CLOSURES && b.closure != RL_CLOSURE_GLTF; }
 
 // The shading normal of a closure. Closures take no mirrored directions: light that a facet sends
 // through the face is absorbed.
@@ -153,14 +127,6 @@ RL_FN vec3 bsdfClosureNormal(RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) w
   bool turns = RL_HAS(RL_FEATURE_SMOOTH_NORMALS | RL_FEATURE_NORMAL_MAPS) && cosO < 0.0f &&
                dot(nGeo, wo) > 0.0f;
   return turns ? nShade - wo * (2.0f * cosO) : nShade;
-}
-
-// Turns the frame of a normal about it, to the tangent and back.
-RL_FN vec3 bsdfToTangent(RL_IN(Bsdf) b, RL_IN(vec3) v) {
-  return vec3(b.tangent.x * v.x + b.tangent.y * v.y, b.tangent.x * v.y - b.tangent.y * v.x, v.z);
-}
-RL_FN vec3 bsdfFromTangent(RL_IN(Bsdf) b, RL_IN(vec3) v) {
-  return vec3(b.tangent.x * v.x - b.tangent.y * v.y, b.tangent.x * v.y + b.tangent.y * v.x, v.z);
 }
 
 RL_FN vec3 bsdfClosureEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
@@ -212,7 +178,7 @@ RL_FN vec3 bsdfEvalAndPdfOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nSha
 // Sums over the materials of a mixture, with one call site for all.
 RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                           RL_IN(vec3) wi, RL_OUT(float) pdf) {
-  if (!RL_HAS(RL_FEATURE_CLOSURE_MIXTURE)) return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
+  if (!RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE)) return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
   bool isMixture = mixtureIs(b);
   vec3 f = vec3(0.0f, 0.0f, 0.0f);
   pdf = 0.0f;
@@ -253,8 +219,10 @@ RL_FN float bsdfPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(v
 }
 
 RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
-                                 RL_IN(vec3) wo, float uLobe, RL_IN(vec2) u) {
-  if (bsdfIsClosure(b)) return bsdfClosureSample(b, nGeo, nShade, wo, uLobe, u);
+                                 RL_IN(vec3) wo, float uOfLobe, RL_IN(vec2) uOfDirection) {
+  if (bsdfIsClosure(b)) return bsdfClosureSample(b, nGeo, nShade, wo, uOfLobe, uOfDirection);
+  float uLobe = uOfLobe;
+  vec2 u = uOfDirection;
   BsdfSample result = bsdfSampleNone();
   result.wi = nShade;
   // Lambert alone: the weight is exactly the albedo, with the same bits in kernels with and without
@@ -275,14 +243,35 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
   vec3 wiL = vec3(0.0f, 0.0f, 1.0f);
   uint lobe = RL_LOBE_DIFFUSE;
   bool byCosine = false;
-  if (uLobe < p.x) {
+  // What is drawn of the layers above; the rest of uLobe chooses below.
+  vec2 q = vec2(0.0f, 0.0f);
+  float below = 1.0f;
+  bool isCoat = false;
+  bool isSheen = false;
+  if (RL_HAS(RL_FEATURE_CLEARCOAT | RL_FEATURE_SHEEN) && layersAre(b)) {
+    q = bsdfLayerProbabilities(b, woL);
+    below = 1.0f - q.x - q.y;
+    isCoat = uLobe < q.x;
+    isSheen = !isCoat && uLobe < q.x + q.y;
+    uLobe = min((uLobe - q.x - q.y) * rlSafeDivide(1.0f, below), 0.99999994f);
+  }
+  uint channel = 3u;  // of dispersion; 3: all
+  float eta = b.eta;
+  if (isCoat || isSheen) {
+    if (!(woL.z > 0.0f)) return result;
+    wiL = layersDraw(b, woL, isCoat, u);
+    byCosine = isSheen;
+    if (isCoat)
+      lobe = (b.lobes & RL_LOBE_COAT_DELTA) != 0u ? RL_LOBE_SPECULAR_DELTA : RL_LOBE_SPECULAR;
+    if (!(wiL.z > 0.0f)) return result;
+  } else if (uLobe < p.x) {
     if (!(woL.z > 0.0f)) return result;
     if ((b.lobes & RL_LOBE_SPECULAR_DELTA) != 0u) {
       lobe = RL_LOBE_SPECULAR_DELTA;
       wiL = vec3(-woL.x, -woL.y, woL.z);
     } else {
       lobe = RL_LOBE_SPECULAR;
-      vec3 hL = ggxDrawVisibleNormal(woL, b.alpha, u);
+      vec3 hL = baseDraw(b, woL, u);
       wiL = hL * (2.0f * dot(woL, hL)) - woL;
       if (!(wiL.z > 0.0f)) return result;
     }
@@ -290,12 +279,17 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
     if (!(woL.z > 0.0f)) return result;
     bool isDelta = (b.lobes & RL_LOBE_TRANSMISSION_DELTA) != 0u;
     lobe = isDelta ? RL_LOBE_TRANSMISSION_DELTA : RL_LOBE_TRANSMISSION;
+    if (dispersionIs(b)) {
+      channel = min(uint(u.x * 3.0f), 2u);
+      u.x = min(u.x * 3.0f - float(channel), 0.99999994f);
+      eta = dispersionChannel(b, channel).eta;
+    }
     vec3 hL = vec3(0.0f, 0.0f, 1.0f);
-    if (!isDelta) hL = ggxDrawVisibleNormal(woL, b.alpha, u);
+    if (!isDelta) hL = baseDraw(b, woL, u);
     if ((b.lobes & RL_LOBE_THIN) != 0u) {
       wiL = hL * (2.0f * dot(woL, hL)) - woL;
       wiL.z = -wiL.z;
-    } else if (!transmissionRefract(woL, hL, b.eta, wiL)) {
+    } else if (!transmissionRefract(woL, hL, eta, wiL)) {
       return result;
     }
     if (!(wiL.z < 0.0f)) return result;
@@ -305,6 +299,14 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
     byCosine = true;
     wiL = lambertDraw(u);
     if (!(wiL.z > 0.0f)) return result;
+    if (diffuseTransmissionIs(b)) {
+      // The place in the interval of the cosine says to which side.
+      float inside = (uLobe - p.x - p.y) * rlSafeDivide(1.0f, 1.0f - p.x - p.y);
+      if (inside < diffuseTransmissionShare(b)) {
+        if (!(woL.z > 0.0f)) return result;
+        wiL.z = -wiL.z;
+      }
+    }
   }
   vec3 wi = frameToWorld(n, wiL);
   float side = dot(nGeo, wi);
@@ -323,13 +325,27 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
   result.wi = wi;
   if ((lobe & RL_LOBE_ANY_DELTA) != 0u) {
     vec3 fresnel = fresnelOfBsdf(b, woL.z);
-    if (lobe == RL_LOBE_SPECULAR_DELTA) {
+    if (isCoat) {
+      float reflects = clearcoatFresnel(b, dot(clearcoatNormal(b, woL), woL)) / q.x;
+      result.pdfSolidAngle = q.x;
+      result.weight = vec3(reflects, reflects, reflects);
+    } else if (lobe == RL_LOBE_SPECULAR_DELTA) {
       result.pdfSolidAngle = p.x;
       result.weight = fresnel * (1.0f / p.x);
     } else {
-      float scale = (b.lobes & RL_LOBE_THIN) != 0u ? 1.0f : 1.0f / (b.eta * b.eta);
+      float scale = (b.lobes & RL_LOBE_THIN) != 0u ? 1.0f : 1.0f / (eta * eta);
       result.pdfSolidAngle = p.y;
       result.weight = b.transmission * ((1.0f - min(rlMax3(fresnel), 1.0f)) * scale / p.y);
+      if (dispersionIs(b)) {
+        fresnel = fresnelOfBsdf(dispersionChannel(b, channel), woL.z);
+        result.weight = b.transmission * ((1.0f - min(rlMax3(fresnel), 1.0f)) * scale / p.y);
+        result.pdfSolidAngle = p.y * (1.0f / 3.0f);
+        result.weight = dispersionOnly(result.weight, channel) * 3.0f;
+      }
+    }
+    if (RL_HAS(RL_FEATURE_CLEARCOAT | RL_FEATURE_SHEEN) && !isCoat) {
+      result.pdfSolidAngle *= below;
+      result.weight *= layersPass(b, woL, wiL) * rlSafeDivide(1.0f, below);
     }
     result.lobe = lobe;
     return result;
@@ -350,7 +366,7 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
   Bsdf part = b;
   float ofLobe = uLobe;
   uint i = 0u;
-  bool isMixture = RL_HAS(RL_FEATURE_CLOSURE_MIXTURE) && mixtureIs(b);
+  bool isMixture = RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(b);
   if (isMixture) {
     i = mixturePick(b, ofLobe);
     part = mixtureMaterial(b, i);
@@ -384,20 +400,22 @@ RL_FN bool bsdfIsLambert(RL_IN(Bsdf) b) {
 RL_FN bool bsdfIsReusable(RL_IN(Bsdf) b, float minAlpha) {
   if (bsdfIsBlack(b)) return false;
   if (!RL_HAS(RL_FEATURE_GLOSSY)) return true;
-  if ((b.lobes & (RL_LOBE_ANY_DELTA | RL_LOBE_ANY_TRANSMISSION)) != 0u) return false;
-  return (b.lobes & RL_LOBE_SPECULAR) == 0u || b.alpha >= minAlpha;
+  if ((b.lobes & (RL_LOBE_ANY_DELTA | RL_LOBE_ANY_PASSING)) != 0u) return false;
+  return (b.lobes & (RL_LOBE_SPECULAR | RL_LOBE_COAT)) == 0u || b.alpha >= minAlpha;
 }
 
 // Returns whether a surface shows sharp images alone: every lobe is smoother than `maxAlpha`.
 RL_FN bool bsdfIsMirror(RL_IN(Bsdf) b, float maxAlpha) {
   if (bsdfIsBlack(b) || (b.lobes & RL_LOBE_DIFFUSE) != 0u) return false;
+  if ((b.lobes & (RL_LOBE_SHEEN | RL_LOBE_DIFFUSE_TRANSMISSION)) != 0u) return false;
+  bool isRoughBelow = (b.lobes & (RL_LOBE_SPECULAR | RL_LOBE_TRANSMISSION)) != 0u;
+  if (clearcoatIs(b) && isRoughBelow && clearcoatAlphaBelow(b) >= maxAlpha) return false;
   return !bsdfIsReusable(b, maxAlpha);
 }
 
 // Returns whether light from behind the surface reaches the viewer.
 RL_FN bool bsdfIsTwoSided(RL_IN(Bsdf) b) {
-  return RL_HAS(RL_FEATURE_TRANSMISSION) &&
-         (b.lobes & (RL_LOBE_ANY_TRANSMISSION | RL_LOBE_EXIT)) != 0u;
+  return RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & (RL_LOBE_ANY_PASSING | RL_LOBE_EXIT)) != 0u;
 }
 
 // Share of the light that is reflected, roughly: diffuse and specular at normal incidence.
@@ -411,6 +429,7 @@ RL_FN vec3 bsdfReflectance(RL_IN(Bsdf) b) {
 RL_FN vec3 bsdfAlbedo(RL_IN(Bsdf) b) {
   vec3 albedo = bsdfReflectance(b);
   if (RL_HAS(RL_FEATURE_GLOSSY)) albedo += b.transmission;
+  if (diffuseTransmissionIs(b)) albedo += vec3(b.p3);
   return albedo;
 }
 

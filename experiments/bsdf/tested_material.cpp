@@ -78,7 +78,8 @@ ClosureTable tabulated(const TestedMaterial& tested, TableAngles angles, const g
   const BsdfProbe probe(tested.material, tested.inputs);
   const char* what = probe.hasDelta()          ? "a smooth mirror, whose values are infinite"
                      : probe.hasTransmission() ? "light that passes"
-                     : (tested.material.data.flags & rl::RL_MATERIAL_ANISOTROPIC) != 0
+                     : (tested.material.data.flags &
+                        (rl::RL_MATERIAL_ANISOTROPIC | rl::RL_MATERIAL_ANISOTROPY)) != 0
                          ? "a lobe that depends on the tangent"
                          : nullptr;
   if (what != nullptr)

@@ -49,7 +49,7 @@ std::vector<std::byte> bytesOf(const Params& params) {
 }
 
 // Allocates the buffers before the first pass runs, as backends place them together.
-PassRun rayPass(Backend& backend, uint32_t mask, const std::vector<rl::Ray>& rays) {
+PassRun rayPass(Backend& backend, rl::FeatureMask mask, const std::vector<rl::Ray>& rays) {
   PassRun pass;
   pass.kernel = "trace";
   pass.mask = mask;
@@ -90,7 +90,7 @@ PassRun streamPass(Backend& backend) {
 BackendRates measureBackend(const PreparedScene& prepared, const std::string& name,
                             const BackendOptions& options, const RaySets& rays, double seconds) {
   const std::unique_ptr<Backend> backend = makeBackend(name, prepared.scene, options);
-  const uint32_t mask = backend->maskFor("trace", prepared.scene->features());
+  const rl::FeatureMask mask = backend->maskFor("trace", prepared.scene->features());
   BackendRates rates;
   const PassRun primary = rayPass(*backend, mask, rays.primary);
   const PassRun incoherent = rayPass(*backend, mask, rays.incoherent);

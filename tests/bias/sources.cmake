@@ -10,6 +10,7 @@ set(RL_BIAS_TESTS
   bias/camera_motion_test.cpp
   bias/light_choice_test.cpp
   bias/long_history_test.cpp
+  bias/material_layers_test.cpp
   bias/parameters_test.cpp
   bias/transparency_test.cpp
 )

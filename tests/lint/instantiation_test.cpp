@@ -24,7 +24,7 @@ namespace {
 
 struct Row {
   std::string mask, trace;
-  uint32_t features;
+  rl::FeatureMask features;
 };
 
 std::map<std::string, std::vector<Row>> rowsByKernel() {
@@ -88,8 +88,8 @@ size_t codeBytes(const std::string& path, const std::string& part) {
 }
 
 // Code of one mask: members of Ctx<features> and runTile<features>.
-size_t codeBytes(const std::string& object, uint32_t features) {
-  return codeBytes(object, "ILj" + std::to_string(features) + "EE");
+size_t codeBytes(const std::string& object, rl::FeatureMask features) {
+  return codeBytes(object, "ILm" + std::to_string(features) + "EE");
 }
 
 // Object file of generated/kernels/<kernel>.cpp.

@@ -13,9 +13,9 @@ namespace restlab::parity {
 namespace {
 
 // Random squares that face the camera, between a lamp and a white floor.
-Scene litSquares(uint32_t seed, uint32_t count) {
+Scene litSquares(uint32_t seed, uint32_t count, bool hasLayers = false) {
   unit::Inputs inputs(seed);
-  Scene scene = unit::randomSquares(inputs, count);
+  Scene scene = unit::randomSquares(inputs, count, hasLayers);
   const auto add = [&scene](MeshGeometry mesh, const rl::Material& material) {
     const auto index = uint32_t(scene.geometries.size());
     scene.geometries.push_back(std::move(mesh));
@@ -43,6 +43,21 @@ TEST(FeatureMaskParity, OwnShadersSeeWhatGeneralOnesSee) {
     };
     const FrameDifference difference = countDifferent(image(kVulkanSpecialised), image(kVulkan));
     EXPECT_LE(difference.different, 4u) << "seed " << seed << ": " << difference.text();
+  }
+}
+
+// Layers of glTF's extensions on both machines.
+TEST(FeatureMaskParity, LayersAreTheSameOnBothMachines) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  for (uint32_t seed = 20; seed <= 23; ++seed) {
+    const auto scene = CompiledScene::build(litSquares(seed, 4, /*hasLayers=*/true));
+    const auto image = [&scene](const Machine& where) {
+      Session session(scene, configOf({"path", "", ""}, where, 64, 32, 3));
+      session.frame();
+      return session.radiance();
+    };
+    const FrameDifference difference = countDifferent(image(kVulkanSpecialised), image(kCpuEmbree));
+    EXPECT_LE(difference.different, 8u) << "seed " << seed << ": " << difference.text();
   }
 }
 

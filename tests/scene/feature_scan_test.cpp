@@ -24,7 +24,7 @@ Scene square(const rl::Material& material) {
   return scene;
 }
 
-uint32_t scanOf(const rl::Material& material) { return scanFeatures(square(material)); }
+rl::FeatureMask scanOf(const rl::Material& material) { return scanFeatures(square(material)); }
 
 // Puts a 2 x 1 image of two texels into a slot.
 void setTexture(Scene& scene, uint32_t slot, uint32_t texelA, uint32_t texelB) {
@@ -35,8 +35,8 @@ void setTexture(Scene& scene, uint32_t slot, uint32_t texelA, uint32_t texelB) {
   scene.materials[0].data.textures[slot] = uint32_t(scene.textureUses.size() - 1);
 }
 
-uint32_t scanTextured(const rl::Material& material, uint32_t slot, uint32_t texelA,
-                      uint32_t texelB) {
+rl::FeatureMask scanTextured(const rl::Material& material, uint32_t slot, uint32_t texelA,
+                             uint32_t texelB) {
   Scene scene = square(material);
   setTexture(scene, slot, texelA, texelB);
   return scanFeatures(scene);
@@ -56,7 +56,7 @@ TEST(FeatureScan, NothingNeedsNothing) {
 }
 
 TEST(FeatureScan, BuiltinScenes) {
-  const std::map<std::string, uint32_t> expected{
+  const std::map<std::string, rl::FeatureMask> expected{
       {"cornell-box", rl::RL_FEATURE_AREA_LIGHTS},
       {"door-ajar", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"many-lights", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_SMOOTH_NORMALS},
@@ -135,7 +135,7 @@ TEST(FeatureScan, PunctualLightsAndEnvironment) {
 }
 
 TEST(FeatureScan, Glossy) {
-  const uint32_t glossy = rl::RL_FEATURE_GLOSSY;
+  const rl::FeatureMask glossy = rl::RL_FEATURE_GLOSSY;
   EXPECT_EQ(scanOf(plastic(glm::vec3(0.5f), 0.4f)), glossy);
   EXPECT_EQ(scanOf(metal(glm::vec3(0.5f), 0.4f)), glossy);
   rl::Material m = plastic(glm::vec3(0.5f), 0.4f);
@@ -177,7 +177,7 @@ TEST(FeatureScan, BaseColorTexture) {
 }
 
 TEST(FeatureScan, TransmissionAndVolume) {
-  const uint32_t transmission = rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION;
+  const rl::FeatureMask transmission = rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION;
   EXPECT_EQ(scanOf(glass(0.0f, glm::vec3(0.0f))), transmission);
   EXPECT_EQ(scanOf(glass(0.0f, {0.0f, 0.1f, 0.0f})), transmission | rl::RL_FEATURE_VOLUME);
   EXPECT_EQ(scanOf(with(glass(0.0f, glm::vec3(0.1f)), rl::RL_MATERIAL_THIN)), transmission)

@@ -10,6 +10,7 @@
 #include "core/dialect/features.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/material_notes.h"
+#include "core/shading/bsdf.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {
@@ -70,7 +71,7 @@ TEST_F(SceneFile, GivesAMaterialOfTheBaseAnotherKind) {
     EXPECT_EQ(std::bit_cast<float>(m.closure[1].words.x), 0.5f) << "the default";
   }
   EXPECT_EQ(changed, 1u);
-  const uint32_t features = CompiledScene::build(scene)->features();
+  const rl::FeatureMask features = CompiledScene::build(scene)->features();
   EXPECT_EQ(features & rl::RL_FEATURE_CLOSURES, rl::RL_FEATURE_CLOSURE_OREN_NAYAR);
 }
 
@@ -269,8 +270,40 @@ radiance = [0.0, 0.0, 1.0]
   ASSERT_TRUE(scene.environment);
   EXPECT_EQ(scene.environment->radiance[0], glm::vec3(0.5f));
   EXPECT_EQ(scene.background, glm::vec3(0.0f, 0.0f, 1.0f));
-  const uint32_t features = CompiledScene::build(scene)->features();
+  const rl::FeatureMask features = CompiledScene::build(scene)->features();
   EXPECT_NE(features & rl::RL_FEATURE_AMBIENT, 0u);
+}
+
+// The kind `gltf` has the layers of its extensions. A mixture does not draw them, so it takes none.
+TEST_F(SceneFile, GltfHasLayers) {
+  const std::string velvet = R"(
+[[material]]
+name = "velvet"
+kind = "gltf"
+roughness = 0.7
+clearcoat = 0.5
+sheen = [0.1, 0.2, 0.3]
+)";
+  const Scene scene = loadScene(write("base = \"cornell-box\"\n" + velvet +
+                                      "[[assign]]\nmaterial = \"White\"\nto = \"velvet\"\n")
+                                    .string());
+  const SceneMaterial& material = materialOf(scene, "TallBlock");
+  EXPECT_EQ(material.data.closure, rl::RL_CLOSURE_GLTF);
+  EXPECT_EQ(material.data.roughness, 0.7f);
+  EXPECT_EQ(material.data.flags & rl::RL_MATERIAL_LAYERS,
+            rl::RL_MATERIAL_CLEARCOAT | rl::RL_MATERIAL_SHEEN);
+  ASSERT_EQ(material.closure.size(), rl::RL_LAYER_COUNT);
+  EXPECT_EQ(std::bit_cast<float>(material.closure[rl::RL_LAYER_SHEEN_COLOR].words.z), 0.3f);
+  EXPECT_EQ(CompiledScene::build(scene)->features() & rl::RL_FEATURE_LAYERS,
+            rl::RL_FEATURE_CLEARCOAT | rl::RL_FEATURE_SHEEN);
+  const std::string mixture =
+      "[[material]]\nname = \"m\"\nkind = \"mixture\"\nfirst = \"velvet\"\nsecond = \"velvet\"\n";
+  try {
+    loadScene(write("base = \"cornell-box\"\n" + velvet + mixture).string());
+    FAIL() << "a mixture of layers was read";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("without layers"), std::string::npos) << error.what();
+  }
 }
 
 // Parts of a mixture are materials that no mesh has; what they need, the scene needs.

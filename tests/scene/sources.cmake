@@ -15,6 +15,7 @@ set(RL_SCENE_TESTS
   scene/gltf_extensions_test.cpp
   scene/gltf_geometry_test.cpp
   scene/gltf_glb_test.cpp
+  scene/gltf_layers_test.cpp
   scene/gltf_material_test.cpp
   scene/gltf_meshopt_test.cpp
   scene/gltf_nodes_test.cpp

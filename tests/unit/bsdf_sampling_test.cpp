@@ -10,6 +10,7 @@
 #include "tests/unit/closure_cases.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/goodness.h"
+#include "tests/unit/layer_cases.h"
 #include "tests/unit/random_inputs.h"
 #include "experiments/statistics/sphere_grid.h"
 
@@ -38,7 +39,7 @@ stats::SphereGrid gridFor(const Setting& s) {
   const glm::dvec3 n(s.nShade), wo(s.wo);
   const double cosO = glm::dot(n, wo), alpha = s.bsdf.alpha;
   std::vector<stats::SphereGrid::Peak> peaks;
-  if (alpha < 0.6 && (s.bsdf.lobes & rl::RL_LOBE_SPECULAR) != 0) {
+  if (alpha < 0.6 && (s.bsdf.lobes & (rl::RL_LOBE_SPECULAR | rl::RL_LOBE_COAT)) != 0) {
     peaks.push_back({2.0 * cosO * n - wo, 2.0 * alpha});
   }
   if (alpha < 0.6 && (s.bsdf.lobes & rl::RL_LOBE_TRANSMISSION) != 0) {
@@ -191,6 +192,34 @@ TEST(BsdfSampling, Closures) {
                   .breaksEnergy = c.breaksEnergy,
                   .scene = c.scene},
                  ++seed);
+  }
+}
+
+// Layers of glTF's extensions. Beside refraction, and where each channel has an index of its own,
+// the factor from radiance to flux is not one number: their energy is that of parts tested alone.
+TEST(BsdfSampling, Layers) {
+  const glm::vec3 up(0.0f, 0.0f, 1.0f), tilted = glm::normalize(glm::vec3(0.4f, -0.2f, 1.0f));
+  uint64_t seed = 9000;
+  std::vector<LayerCase> cases = continuousLayers();
+  for (LayerCase& c : deltaLayers()) cases.push_back(std::move(c));
+  for (const LayerCase& c : cases) {
+    const bool hasManyScales =
+        c.name.find("beside") != std::string::npos || (c.bsdf.lobes & rl::RL_LOBE_DISPERSION) != 0;
+    for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
+      const bool isTilted = angle == 120.0;
+      if (isTilted && c.bsdf.alpha < 0.15f) continue;
+      const std::string name = c.name + (isTilted ? ", tilted normal, at " : " at ") +
+                               std::to_string(int(isTilted ? 60.0 : angle)) + " degrees";
+      checkSetting({.name = name,
+                    .bsdf = c.bsdf,
+                    .wo = directionAt(isTilted ? 60.0 : angle),
+                    .nGeo = isTilted ? tilted : up,
+                    .nShade = up,
+                    .samples = 200'000,
+                    .breaksEnergy = hasManyScales,
+                    .scene = c.scene},
+                   ++seed);
+    }
   }
 }
 

@@ -6,7 +6,7 @@
 namespace rl {
 
 struct BvhCtx {
-  static constexpr uint kFeatures = RL_FEATURE_ALL;
+  static constexpr FeatureMask kFeatures = RL_FEATURE_ALL;
 
   const SceneData& gScene;
   const FrameData& gFrame;

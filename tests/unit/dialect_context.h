@@ -20,9 +20,9 @@
 
 namespace rl {
 
-template <uint FEATURES>
+template <FeatureMask FEATURES>
 struct Ctx {
-  static constexpr uint kFeatures = FEATURES;
+  static constexpr FeatureMask kFeatures = FEATURES;
 
   const SceneData& gScene;
   const FrameData& gFrame;
@@ -45,7 +45,7 @@ inline rl::LightReceiver anyReceiver() {
 
 // A kernel context with the storage that it refers to. Without a compiled scene, tests fill `scene`
 // by hand and must trace no rays.
-template <uint32_t FEATURES = rl::RL_FEATURE_ALL>
+template <rl::FeatureMask FEATURES = rl::RL_FEATURE_ALL>
 struct Dialect {
   Dialect() : ctx{scene, frame, counters, nullptr} {}
   explicit Dialect(std::shared_ptr<const CompiledScene> compiled)

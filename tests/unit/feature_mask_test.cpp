@@ -19,7 +19,7 @@ using namespace rl;
 
 // The dialect's functions under a mask that is known only at run time.
 struct MaskedContext {
-  const uint kFeatures;
+  const FeatureMask kFeatures;
   const SceneData& gScene;
   const FrameData& gFrame;
 
@@ -52,11 +52,12 @@ void expectSameSurface(MaskedContext& own, MaskedContext& general, const Hit& hi
   ASSERT_EQ(drawA.wi, drawB.wi) << seed;
 }
 
-TEST(FeatureMask, OwnKernelsSeeWhatTheGeneralOneSees) {
-  uint32_t masks = 0;
-  for (uint32_t seed = 1; seed <= 3000; ++seed) {
+// Features that the scenes needed, one bit each.
+FeatureMask compareScenes(uint32_t count, bool hasLayers) {
+  FeatureMask masks = 0;
+  for (uint32_t seed = 1; seed <= count; ++seed) {
     Inputs inputs(seed);
-    const auto scene = CompiledScene::build(randomSquares(inputs, 1 + inputs.below(3)));
+    const auto scene = CompiledScene::build(randomSquares(inputs, 1 + inputs.below(3), hasLayers));
     const FrameData frame{};
     MaskedContext own{scene->features(false), scene->data(), frame};
     MaskedContext general{RL_FEATURE_ALL & ~RL_FEATURE_MULTISCATTER, scene->data(), frame};
@@ -67,13 +68,23 @@ TEST(FeatureMask, OwnKernelsSeeWhatTheGeneralOneSees) {
       hit.primitive = inputs.below(2);
       hit.bary = 0.5f * inputs.square();
       expectSameSurface(own, general, hit, inputs, seed);
-      if (HasFatalFailure()) return;
+      if (testing::Test::HasFatalFailure()) return masks;
     }
   }
-  constexpr uint32_t expected = RL_FEATURE_AREA_LIGHTS | RL_FEATURE_GLOSSY | RL_FEATURE_TEXTURES |
-                                RL_FEATURE_TRANSMISSION | RL_FEATURE_VOLUME |
-                                RL_FEATURE_EMISSIVE_TEXTURES;
+  return masks;
+}
+
+TEST(FeatureMask, OwnKernelsSeeWhatTheGeneralOneSees) {
+  const FeatureMask masks = compareScenes(3000, false);
+  constexpr FeatureMask expected = RL_FEATURE_AREA_LIGHTS | RL_FEATURE_GLOSSY |
+                                   RL_FEATURE_TEXTURES | RL_FEATURE_TRANSMISSION |
+                                   RL_FEATURE_VOLUME | RL_FEATURE_EMISSIVE_TEXTURES;
   EXPECT_EQ(masks & expected, expected) << "some feature was never needed";
+}
+
+TEST(FeatureMask, OwnKernelsSeeTheLayersThatTheGeneralOneSees) {
+  const FeatureMask masks = compareScenes(2000, true);
+  EXPECT_EQ(masks & RL_FEATURE_LAYERS, RL_FEATURE_LAYERS) << "some layer was never there";
 }
 
 }  // namespace

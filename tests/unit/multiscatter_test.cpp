@@ -20,7 +20,7 @@
 namespace restlab::unit {
 namespace {
 
-constexpr uint32_t kWithout = rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_MULTISCATTER;
+constexpr rl::FeatureMask kWithout = rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_MULTISCATTER;
 
 // Allowed interpolation error of the table in an albedo: for alpha from 0.02 on, and below. On
 // smoother surfaces, the albedo turns closer to the horizon.
@@ -57,7 +57,7 @@ TEST(Multiscatter, TableAgainstIntegralsOverMicrofacets) {
   EXPECT_NEAR(mean.y, 1.0 / 21.0, 1e-4) << "and the mean of Schlick's weight is 1/21";
 }
 
-template <uint32_t FEATURES>
+template <rl::FeatureMask FEATURES>
 glm::dvec3 albedoOf(Dialect<FEATURES>& d, const rl::Bsdf& bsdf, const glm::vec3& wo) {
   const stats::SphereGrid grid({{{-wo.x, -wo.y, wo.z}, 2.0 * bsdf.alpha}});
   glm::dvec3 sum(0.0);
@@ -227,7 +227,7 @@ Image rendered(const std::shared_ptr<const CompiledScene>& scene, bool multiscat
 // A session needs the feature if it is asked for and changes something; the general kernel has the
 // code, controlled by the frame.
 TEST(Multiscatter, SessionsNeedItWhereItChangesSomething) {
-  constexpr uint32_t bit = rl::RL_FEATURE_MULTISCATTER;
+  constexpr rl::FeatureMask bit = rl::RL_FEATURE_MULTISCATTER;
   const auto box = CompiledScene::build(makeBuiltinScene("cornell-box"));
   EXPECT_EQ(rendered(box, true, 0u).pixels, rendered(box, false, 0u).pixels);
   EXPECT_EQ(box->data().ggxAlbedo.data, nullptr) << "no table without a use";

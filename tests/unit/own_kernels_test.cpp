@@ -32,9 +32,10 @@ SceneMaterial randomClosure(Inputs& inputs) {
   throw std::logic_error("no material of " + info.name);
 }
 
-SceneMaterial randomSurface(Scene& scene, Inputs& inputs) {
+SceneMaterial randomSurface(Scene& scene, Inputs& inputs, bool hasLayers) {
   if (inputs.below(4) == 0) return randomClosure(inputs);
   SceneMaterial material{"material", randomMaterial(scene, inputs)};
+  if (hasLayers) addRandomLayers(scene, material, inputs);
   material.data.flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
   if (inputs.below(4) == 0) {
     material.data.flags |=
@@ -56,7 +57,7 @@ PunctualLight randomLight(Inputs& inputs) {
 }
 
 // A lit floor and wall, with a few random things before them.
-Scene randomScene(Inputs& inputs) {
+Scene randomScene(Inputs& inputs, bool hasLayers = false) {
   Scene scene;
   scene.name = "random";
   const auto add = [&](MeshGeometry mesh, const SceneMaterial& material, const glm::dmat4& place) {
@@ -73,12 +74,12 @@ Scene randomScene(Inputs& inputs) {
     return mesh;
   };
   const glm::dmat4 here(1.0);
-  add(square({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), randomSurface(scene, inputs), here);
-  add(square({-2, 0, -2}, {4, 0, 0}, {0, 4, 0}), randomSurface(scene, inputs), here);
+  add(square({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), randomSurface(scene, inputs, hasLayers), here);
+  add(square({-2, 0, -2}, {4, 0, 0}, {0, 4, 0}), randomSurface(scene, inputs, hasLayers), here);
   add(square({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}), {"lamp", builtin::lamp(glm::vec3(4.0f))}, here);
   if (inputs.below(2) == 0) {
     add(builtin::sphere("ball", {-0.5, 0.6, 0.0}, 0.5, 2, inputs.below(2) == 0),
-        randomSurface(scene, inputs), here);
+        randomSurface(scene, inputs, hasLayers), here);
     // The same mesh twice: an instance.
     if (inputs.below(2) == 0)
       scene.instances.push_back({"second", uint32_t(scene.geometries.size() - 1), 0,
@@ -96,7 +97,7 @@ Scene randomScene(Inputs& inputs) {
 
 // Image after three frames, the last of them with another camera.
 Image imageOf(const std::shared_ptr<const CompiledScene>& scene, const std::string& integrator,
-              KernelChoice kernels, uint32_t& used) {
+              KernelChoice kernels, rl::FeatureMask& used) {
   SessionConfig config;
   config.integrator = integrator;
   config.width = 40;
@@ -112,13 +113,14 @@ Image imageOf(const std::shared_ptr<const CompiledScene>& scene, const std::stri
   return session.radiance();
 }
 
-void expectSameBits(uint32_t firstSeed, uint32_t count, const std::vector<std::string>& methods) {
-  std::set<uint32_t> masks;
+void expectSameBits(uint32_t firstSeed, uint32_t count, const std::vector<std::string>& methods,
+                    bool hasLayers = false) {
+  std::set<rl::FeatureMask> masks;
   for (uint32_t seed = firstSeed; seed < firstSeed + count; ++seed) {
     Inputs inputs(seed);
-    const auto scene = CompiledScene::build(randomScene(inputs));
+    const auto scene = CompiledScene::build(randomScene(inputs, hasLayers));
     for (const std::string& method : methods) {
-      uint32_t own = 0, general = 0;
+      rl::FeatureMask own = 0, general = 0;
       const Image a = imageOf(scene, method, KernelChoice::exact, own);
       const Image b = imageOf(scene, method, KernelChoice::general, general);
       EXPECT_EQ(own, scene->features());
@@ -137,13 +139,18 @@ TEST(OwnKernels, RenderWhatTheGeneralOnesDo) {
   // Glass without media: light samples of paths that are replayed once depended on the kernel.
   constexpr uint32_t seed = 4;
   Inputs inputs(seed);
-  const uint32_t needed = CompiledScene::build(randomScene(inputs))->features();
+  const rl::FeatureMask needed = CompiledScene::build(randomScene(inputs))->features();
   EXPECT_NE(needed & rl::RL_FEATURE_TRANSMISSION, 0u);
   EXPECT_EQ(needed & rl::RL_FEATURE_VOLUME, 0u);
   expectSameBits(seed, 1, {"restir_pt"});
 }
 
+TEST(OwnKernels, RenderTheLayersThatTheGeneralOnesDo) {
+  expectSameBits(50, 4, {"path"}, /*hasLayers=*/true);
+}
+
 TEST(OwnKernels, RenderWhatTheGeneralOnesDoNightly) {
+  expectSameBits(200, 20, {"path", "restir_di", "restir_gi", "restir_pt"}, /*hasLayers=*/true);
   expectSameBits(100, 40, {"path", "restir_di", "restir_gi", "restir_pt"});
 }
 

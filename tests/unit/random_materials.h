@@ -6,6 +6,7 @@
 #include "core/scene/builtin/builder.h"
 #include "core/scene/builtin/mesh.h"
 #include "core/scene/scene.h"
+#include "tests/unit/layered.h"
 #include "tests/unit/random_inputs.h"
 
 namespace restlab::unit {
@@ -57,14 +58,36 @@ inline rl::Material randomMaterial(Scene& scene, Inputs& inputs) {
   return m;
 }
 
+// Adds layers of glTF's extensions, with or without textures.
+inline void addRandomLayers(Scene& scene, SceneMaterial& material, Inputs& inputs) {
+  Layers l;
+  l.coat = randomFactor(inputs);
+  l.coatRoughness = randomFactor(inputs);
+  if (inputs.below(2) == 0) l.sheen = {randomFactor(inputs), 0.5f, 0.2f};
+  l.sheenRoughness = randomFactor(inputs);
+  l.anisotropy = randomFactor(inputs);
+  l.rotation = inputs.uniform();
+  l.film = randomFactor(inputs);
+  l.thickness = 800.0f * inputs.uniform();
+  l.passing = randomFactor(inputs);
+  l.dispersion = randomFactor(inputs);
+  material = layered(material.data, l);
+  for (ClosureValue& value : material.closure) {
+    if (inputs.below(5) != 0) continue;
+    value.texture = addRandomTexture(scene, inputs);
+    value.channel = inputs.below(4);
+  }
+}
+
 // Squares of 1 m in a row along +x, 3 m apart, facing +z, each with its own material.
-inline Scene randomSquares(Inputs& inputs, uint32_t count) {
+inline Scene randomSquares(Inputs& inputs, uint32_t count, bool hasLayers = false) {
   Scene scene;
   for (uint32_t i = 0; i < count; ++i) {
     MeshGeometry mesh = builtin::quad("square", {3.0 * i, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     scene.geometries.push_back(mesh);
     scene.materials.push_back({"material", randomMaterial(scene, inputs)});
+    if (hasLayers && inputs.below(2) == 0) addRandomLayers(scene, scene.materials.back(), inputs);
     scene.instances.push_back({"square", i, i, glm::dmat4(1.0)});
   }
   return scene;

@@ -16,7 +16,7 @@
 namespace rl {
 
 struct StoreCtx {
-  static constexpr uint kFeatures = RL_FEATURE_ALL;
+  static constexpr FeatureMask kFeatures = RL_FEATURE_ALL;
 
   const SceneData& gScene;
   const FrameData& gFrame;

@@ -14,6 +14,8 @@ list(APPEND RL_UNIT_TESTS
   environment_test.cpp
   feature_mask_test.cpp
   kernel_units_test.cpp
+  layer_cases.cpp
+  layers_test.cpp
   own_kernels_test.cpp
   ggx_reference.cpp
   light_test.cpp
@@ -63,5 +65,5 @@ foreach(file bsdf_sampling_test.cpp)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 endforeach()
 
-# What tells tracers apart, for the tests of other machines too.
-set(RL_UNIT_SOURCES ray_cases.cpp)
+# What tells tracers apart, and materials with layers, for other tests too.
+set(RL_UNIT_SOURCES layered.cpp ray_cases.cpp)

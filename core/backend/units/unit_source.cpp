@@ -25,7 +25,7 @@ const DialectKernel& filesOf(const std::string& kernel) {
 std::string unitText(const KernelUnit& unit, const std::string& compilerVersion) {
   const DialectKernel& files = filesOf(unit.kernel);
   return fmt::format(R"(#define RL_KERNEL_NAME {name}
-#define RL_KERNEL_MASKS(M) M(unit, {mask}u)
+#define RL_KERNEL_MASKS(M) M(unit, {mask}ull)
 #define RL_KERNEL_HEADER "{header}"
 #define RL_KERNEL_FILE "{file}"
 #define RL_KERNEL_TRACE "{trace}"

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "core/backend/dialect_sources.h"
+#include "core/dialect/features.h"
 
 namespace restlab {
 
 struct KernelUnit {
-  std::string kernel;  // as rl_add_kernel names it
-  uint32_t mask = 0;   // RL_FEATURE_*
+  std::string kernel;        // as rl_add_kernel names it
+  rl::FeatureMask mask = 0;  // RL_FEATURE_*
   auto operator<=>(const KernelUnit&) const = default;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 bool isClear(const SceneMaterial& material) {
   const rl::Material& m = material.data;
-  constexpr uint32_t kOther = rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK;
+  constexpr uint32_t kOther =
+      rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK | rl::RL_MATERIAL_LAYERS;
   constexpr uint32_t kSlots[] = {rl::RL_TEX_BASE_COLOR, rl::RL_TEX_TRANSMISSION};
   const bool isTextured = std::any_of(std::begin(kSlots), std::end(kSlots), [&m](uint32_t slot) {
     return m.textures[slot] != rl::RL_INVALID;

@@ -47,7 +47,7 @@ uint32_t append(std::vector<T>& pool, const std::vector<T>& values) {
 
 struct CompiledScene::Impl {
   Scene scene;
-  uint32_t features = 0;
+  rl::FeatureMask features = 0;
   std::once_flag ggxAlbedoBound, bvhBound, lightTreeBound;
   Bvh bvh;
   LightTree lightTree;
@@ -338,7 +338,7 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
 
 const Scene& CompiledScene::source() const { return impl_->scene; }
 const rl::SceneData& CompiledScene::data() const { return impl_->data; }
-uint32_t CompiledScene::features(bool multiscatter) const {
+rl::FeatureMask CompiledScene::features(bool multiscatter) const {
   const bool changes = multiscatter && hasRoughReflection(impl_->scene);
   return impl_->features | (changes ? rl::RL_FEATURE_MULTISCATTER : 0u);
 }

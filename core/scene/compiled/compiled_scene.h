@@ -26,7 +26,7 @@ class CompiledScene {
   const rl::SceneData& data() const;  // addresses stay valid as long as this object
   // Features that the scene needs (RL_FEATURE_*). RL_FEATURE_MULTISCATTER is included only if
   // `multiscatter` is set and changes something.
-  uint32_t features(bool multiscatter = false) const;
+  rl::FeatureMask features(bool multiscatter = false) const;
   // Makes SceneData::ggxAlbedo point to its table, for sessions that read it; computed at the first
   // call.
   void bindGgxAlbedo() const;
@@ -71,7 +71,7 @@ class CompiledScene {
 };
 
 // Features that the scene needs, before compilation (core/scene/compiled/feature_scan.cpp).
-uint32_t scanFeatures(const Scene& scene);
+rl::FeatureMask scanFeatures(const Scene& scene);
 // Returns whether a surface has the rough reflection that multiple-scattering compensation changes.
 bool hasRoughReflection(const Scene& scene);
 

@@ -27,11 +27,39 @@ glm::vec3 times(const glm::vec3& v, const std::array<float, 4>& texel) {
 
 bool hasTexture(const rl::Material& m, uint32_t slot) { return m.textures[slot] != rl::RL_INVALID; }
 
-uint32_t scanClosure(const SceneMaterial& material) {
+rl::FeatureMask scanClosure(const SceneMaterial& material) {
   const ClosureInfo& info = closureRegistry().at(material.data.closure - 1);
-  uint32_t features = rl::RL_FEATURE_GLOSSY | info.feature;
+  rl::FeatureMask features = rl::RL_FEATURE_GLOSSY | info.feature;
   for (const ClosureValue& value : material.closure) {
     if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
+  }
+  return features;
+}
+
+// Features of the layers of glTF's extensions. They look at all that the lobes below have.
+rl::FeatureMask scanLayers(const SceneMaterial& material) {
+  const rl::Material& m = material.data;
+  if ((m.flags & rl::RL_MATERIAL_LAYERS) == 0) return 0;
+  rl::FeatureMask features = rl::RL_FEATURE_GLOSSY;
+  const auto add = [&](uint32_t flag, rl::FeatureMask needed) {
+    if ((m.flags & flag) != 0) features |= needed;
+  };
+  add(rl::RL_MATERIAL_CLEARCOAT, rl::RL_FEATURE_CLEARCOAT);
+  add(rl::RL_MATERIAL_SHEEN, rl::RL_FEATURE_SHEEN);
+  add(rl::RL_MATERIAL_ANISOTROPY, rl::RL_FEATURE_ANISOTROPY);
+  add(rl::RL_MATERIAL_IRIDESCENCE, rl::RL_FEATURE_IRIDESCENCE);
+  // Light samples behind a surface are a matter of the second.
+  add(rl::RL_MATERIAL_DIFFUSE_TRANSMISSION,
+      rl::RL_FEATURE_DIFFUSE_TRANSMISSION | rl::RL_FEATURE_TRANSMISSION);
+  add(rl::RL_MATERIAL_DISPERSION, rl::RL_FEATURE_DISPERSION);
+  if (material.closure.at(rl::RL_LAYER_CLEARCOAT_NORMAL).texture != rl::RL_INVALID)
+    features |= rl::RL_FEATURE_NORMAL_MAPS;
+  for (const ClosureValue& value : material.closure) {
+    if (value.texture != rl::RL_INVALID) features |= rl::RL_FEATURE_TEXTURES;
+  }
+  for (uint32_t slot = 0; slot < rl::RL_TEX_COUNT; ++slot) {
+    if (slot != rl::RL_TEX_NORMAL && slot != rl::RL_TEX_EMISSIVE && hasTexture(m, slot))
+      features |= rl::RL_FEATURE_TEXTURES;
   }
   return features;
 }
@@ -50,15 +78,16 @@ std::vector<uint32_t> mixedMaterials(const SceneMaterial& material) {
 }
 
 // Features that the material needs on any mesh; emission and alpha also depend on the mesh.
-uint32_t scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
+rl::FeatureMask scanSurface(const SceneMaterial& material, TextureRanges& ranges) {
   const rl::Material& m = material.data;
   const bool scatters = (m.flags & (rl::RL_MATERIAL_UNLIT | rl::RL_MATERIAL_BLACK)) == 0;
-  uint32_t features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
+  rl::FeatureMask features = hasTexture(m, rl::RL_TEX_BASE_COLOR) ? rl::RL_FEATURE_TEXTURES : 0u;
   if (!scatters) return features;
   if (hasTexture(m, rl::RL_TEX_NORMAL) && m.normalScale != 0.0f)
     features |= rl::RL_FEATURE_NORMAL_MAPS;
   if (m.closure != rl::RL_CLOSURE_GLTF) return features | scanClosure(material);
 
+  features |= scanLayers(material);
   const TexelRange& metalRange = ranges.ofSlot(m, rl::RL_TEX_METALLIC_ROUGHNESS);
   const glm::vec3 base = times(m.baseColor, ranges.ofSlot(m, rl::RL_TEX_BASE_COLOR).high);
   const glm::vec3 tint = times(m.specularColor, ranges.ofSlot(m, rl::RL_TEX_SPECULAR_COLOR).high);
@@ -102,7 +131,10 @@ bool reflectsRoughly(const rl::Material& m, TextureRanges& ranges) {
   const bool alwaysTransmits =
       m.transmission * ranges.ofSlot(m, rl::RL_TEX_TRANSMISSION).low[0] > 0.0f &&
       m.metallic * range.high[2] < 1.0f;
-  return (isMetal || isCoated) && roughness * roughness >= rl::RL_ALPHA_FLOOR && !alwaysTransmits;
+  // Facets stretched along the tangent are rough along one axis.
+  const bool isRough =
+      roughness * roughness >= rl::RL_ALPHA_FLOOR || (m.flags & rl::RL_MATERIAL_ANISOTROPY) != 0;
+  return (isMetal || isCoated) && isRough && !alwaysTransmits;
 }
 
 bool emits(const rl::Material& m, TextureRanges& ranges) {
@@ -153,8 +185,8 @@ bool hasSmoothNormals(const MeshGeometry& mesh) {
   });
 }
 
-uint32_t scanLights(const Scene& scene) {
-  uint32_t features = 0;
+rl::FeatureMask scanLights(const Scene& scene) {
+  rl::FeatureMask features = 0;
   for (const PunctualLight& light : scene.lights) {
     if (isPositive(light.intensity)) features |= rl::RL_FEATURE_PUNCTUAL_LIGHTS;
   }
@@ -168,8 +200,8 @@ uint32_t scanLights(const Scene& scene) {
 
 }  // namespace
 
-uint32_t scanFeatures(const Scene& scene) {
-  uint32_t features = scanLights(scene);
+rl::FeatureMask scanFeatures(const Scene& scene) {
+  rl::FeatureMask features = scanLights(scene);
   TextureRanges ranges(scene);
   std::vector<uint32_t> uses(scene.geometries.size(), 0);
   std::vector<char> isMaterialSeen(scene.materials.size(), 0);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/scene/compiled/sheen_albedo.h"
 
 namespace restlab {
 namespace {
@@ -91,6 +93,11 @@ void addTextures(const Scene& scene, MaterialRecords& records) {
 
 MaterialRecords materialRecords(const Scene& scene) {
   MaterialRecords records;
+  // First of all: kernels find it at record 0.
+  const bool hasSheen = std::any_of(
+      scene.materials.begin(), scene.materials.end(),
+      [](const SceneMaterial& m) { return (m.data.flags & rl::RL_MATERIAL_SHEEN) != 0; });
+  if (hasSheen) records.closureParameters = sheenAlbedoTable();
   const std::vector<uint32_t> tables = addTables(scene, records);
   for (const SceneMaterial& material : scene.materials)
     addMaterial(material, scene, tables, records);

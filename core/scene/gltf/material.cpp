@@ -7,6 +7,8 @@
 
 #include "core/scene/compiled/bodies.h"
 #include "core/scene/gltf/json.h"
+#include "core/scene/gltf/layers.h"
+#include "core/scene/gltf/properties.h"
 #include "core/scene/gltf/specular_glossiness.h"
 
 namespace restlab::gltf {
@@ -19,40 +21,6 @@ constexpr double kSmallestTransmittance = 1e-4;
 // and beyond it the half vectors of rough refraction lose precision.
 constexpr double kLargestIor = 4.0;
 constexpr int kLargestPriority = 1'000'000;
-
-// Numbers of an extension's object; absent numbers get the caller's default.
-class Properties {
- public:
-  Properties(const tinygltf::ExtensionMap& extensions, const char* name) {
-    const auto it = extensions.find(name);
-    if (it != extensions.end()) value_ = &it->second;
-  }
-  bool present() const { return value_ != nullptr; }
-  double number(const char* name, double otherwise) const {
-    return has(name) ? value_->Get(name).GetNumberAsDouble() : otherwise;
-  }
-  glm::dvec3 color(const char* name, glm::dvec3 otherwise) const {
-    if (!has(name)) return otherwise;
-    const tinygltf::Value& array = value_->Get(name);
-    return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
-            array.Get(2).GetNumberAsDouble()};
-  }
-  bool has(const char* name) const { return value_ && value_->Has(name); }
-  TextureReference texture(const char* name) const {
-    TextureReference reference;
-    if (!has(name)) return reference;
-    const tinygltf::Value& info = value_->Get(name);
-    reference.index = info.Get("index").GetNumberAsInt();
-    if (info.Has("texCoord")) reference.texCoord = info.Get("texCoord").GetNumberAsInt();
-    if (info.Has("extensions")) {
-      reference.ownedExtensions = info.Get("extensions").Get<tinygltf::Value::Object>();
-    }
-    return reference;
-  }
-
- private:
-  const tinygltf::Value* value_ = nullptr;
-};
 
 class MaterialImporter {
  public:
@@ -75,6 +43,7 @@ class MaterialImporter {
     }
     if (material_.doubleSided) data_->flags |= rl::RL_MATERIAL_DOUBLE_SIDED;
     if (has("KHR_materials_unlit")) data_->flags |= rl::RL_MATERIAL_UNLIT;
+    if (!isSpecularGlossiness()) importLayers(material_, place_, textures_, report_, result);
     return result;
   }
 

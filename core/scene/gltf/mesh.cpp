@@ -112,7 +112,10 @@ const std::vector<MeshImporter::Part>& MeshImporter::parts(size_t meshIndex) {
 
 void MeshImporter::warnMissingUvs(const SceneMaterial& material, const MeshGeometry& geometry,
                                   const std::string& place) {
-  for (const uint32_t texture : material.data.textures) {
+  std::vector<uint32_t> textures(std::begin(material.data.textures),
+                                 std::end(material.data.textures));
+  for (const ClosureValue& value : material.closure) textures.push_back(value.texture);
+  for (const uint32_t texture : textures) {
     if (texture == rl::RL_INVALID) continue;
     const uint32_t set = scene_.textureUses[texture].uvSet;
     if (!geometry.uvs[set].empty()) continue;

@@ -156,6 +156,28 @@ struct Tables {
   Schema volume{{number("thicknessFactor", 0, kMax, kClamps),
                  dispensable(object("thicknessTexture", textureInfo)),
                  positive("attenuationDistance"), numbers("attenuationColor", 3, 0, 1, kClamps)}};
+  Schema clearcoat{{number("clearcoatFactor", 0, 1, kClamps),
+                    object("clearcoatTexture", textureInfo),
+                    number("clearcoatRoughnessFactor", 0, 1, kClamps),
+                    object("clearcoatRoughnessTexture", textureInfo),
+                    object("clearcoatNormalTexture", normalTextureInfo)}};
+  Schema sheen{{numbers("sheenColorFactor", 3, 0, 1, kClamps),
+                object("sheenColorTexture", textureInfo),
+                number("sheenRoughnessFactor", 0, 1, kClamps),
+                object("sheenRoughnessTexture", textureInfo)}};
+  Schema anisotropy{{number("anisotropyStrength", 0, 1, kClamps), number("anisotropyRotation"),
+                     object("anisotropyTexture", textureInfo)}};
+  Schema iridescence{{number("iridescenceFactor", 0, 1, kClamps),
+                      object("iridescenceTexture", textureInfo),
+                      number("iridescenceIor", 1, kMax, kClamps),
+                      number("iridescenceThicknessMinimum", 0, kMax, kClamps),
+                      number("iridescenceThicknessMaximum", 0, kMax, kClamps),
+                      object("iridescenceThicknessTexture", textureInfo)}};
+  Schema diffuseTransmission{{number("diffuseTransmissionFactor", 0, 1, kClamps),
+                              object("diffuseTransmissionTexture", textureInfo),
+                              numbers("diffuseTransmissionColorFactor", 3, 0, 1, kClamps),
+                              object("diffuseTransmissionColorTexture", textureInfo)}};
+  Schema dispersion{{number("dispersion", 0, kMax, kClamps)}};
   Schema unlit{};
   Schema specularGlossiness{
       {numbers("diffuseFactor", 4, 0, 1, kClamps), object("diffuseTexture", textureInfo),
@@ -169,7 +191,13 @@ struct Tables {
        word("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
        enabledIf("alphaMode", "MASK", number("alphaCutoff", 0, kMax, kClamps)),
        boolean("doubleSided")},
-      {{"KHR_materials_emissive_strength", &emissiveStrength},
+      {{"KHR_materials_anisotropy", &anisotropy},
+       {"KHR_materials_clearcoat", &clearcoat},
+       {"KHR_materials_diffuse_transmission", &diffuseTransmission},
+       {"KHR_materials_dispersion", &dispersion},
+       {"KHR_materials_emissive_strength", &emissiveStrength},
+       {"KHR_materials_iridescence", &iridescence},
+       {"KHR_materials_sheen", &sheen},
        {"KHR_materials_ior", &ior},
        {"KHR_materials_specular", &specular},
        {"KHR_materials_transmission", &transmission},
@@ -240,9 +268,15 @@ const std::vector<std::string>& supportedExtensions() {
                                                  "EXT_meshopt_compression",
                                                  "KHR_draco_mesh_compression",
                                                  "KHR_lights_punctual",
+                                                 "KHR_materials_anisotropy",
+                                                 "KHR_materials_clearcoat",
+                                                 "KHR_materials_diffuse_transmission",
+                                                 "KHR_materials_dispersion",
                                                  "KHR_materials_emissive_strength",
                                                  "KHR_materials_ior",
+                                                 "KHR_materials_iridescence",
                                                  "KHR_materials_pbrSpecularGlossiness",
+                                                 "KHR_materials_sheen",
                                                  "KHR_materials_specular",
                                                  "KHR_materials_transmission",
                                                  "KHR_materials_unlit",

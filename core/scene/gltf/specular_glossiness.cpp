@@ -44,8 +44,11 @@ void checkSpecularGlossiness(const tinygltf::Material& material, const std::stri
     warn(kSpecularGlossiness, "KHR_materials_unlit");
     return;
   }
-  for (const char* other : {"KHR_materials_ior", "KHR_materials_specular",
-                            "KHR_materials_transmission", "KHR_materials_volume"}) {
+  for (const char* other :
+       {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_diffuse_transmission",
+        "KHR_materials_dispersion", "KHR_materials_ior", "KHR_materials_iridescence",
+        "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission",
+        "KHR_materials_volume"}) {
     if (has(other)) warn(other, kSpecularGlossiness);
   }
 }

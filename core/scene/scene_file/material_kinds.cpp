@@ -30,6 +30,30 @@ ClosureParameter meanFreePath() {
   return p;
 }
 
+std::vector<ClosureParameter> gltfParameters() {
+  return {
+      color("color", 0.8, "base colour"),
+      number("metallic", 0.0, 0.0, 1.0, "0: dielectric, 1: metal"),
+      number("roughness", 0.5, 0.0, 1.0, "square root of alpha"),
+      number("ior", 1.5, 1.0, 4.0, "index of refraction"),
+      number("specular", 1.0, 0.0, 1.0, "strength of a dielectric's reflection"),
+      number("transmission", 0.0, 0.0, 1.0,
+             "share of the base that refracts; around a closed body"),
+      number("clearcoat", 0.0, 0.0, 1.0, "factor of the coat"),
+      number("clearcoat_roughness", 0.0, 0.0, 1.0, "of the coat"),
+      color("sheen", 0.0, "colour of the sheen"),
+      number("sheen_roughness", 0.5, 0.0, 1.0, "of the sheen"),
+      number("anisotropy", 0.0, 0.0, 1.0, "strength, along the tangent"),
+      number("anisotropy_rotation", 0.0, -6.2832, 6.2832, "radians from the tangent"),
+      number("iridescence", 0.0, 0.0, 1.0, "factor of the film"),
+      number("film_thickness", 400.0, 0.0, 1.0e5, "nanometres"),
+      number("film_ior", 1.3, 1.0, 4.0, "index of refraction of the film"),
+      number("diffuse_transmission", 0.0, 0.0, 1.0, "share of the diffuse part that passes"),
+      color("diffuse_transmission_color", 1.0, "its colour"),
+      number("dispersion", 0.0, 0.0, 40.0, "20 over the Abbe number, of what refracts"),
+  };
+}
+
 // The kinds that the lobes of core/shading/bsdf.glsl stand for.
 std::vector<MaterialKind> lobeKinds() {
   const ClosureParameter ior = number("ior", 1.5, 1.0, 4.0, "index of refraction (water 1.33)");
@@ -65,6 +89,8 @@ std::vector<MaterialKind> lobeKinds() {
        "Lambert below a layer that reflects",
        "glTF 2.0, appendix B",
        {color("color", 0.5, "albedo of the base"), ior, kAlpha}},
+      {"gltf", "metal or dielectric of glTF, with the layers of its extensions",
+       "glTF 2.0, appendix B, and the texts of its extensions", gltfParameters()},
   };
 }
 

@@ -11,6 +11,7 @@
 #include "core/scene/gltf/material.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "core/scene/textures/image_decode.h"
+#include "core/shading/bsdf.h"
 
 namespace restlab {
 namespace fs = std::filesystem;
@@ -126,6 +127,7 @@ class Lobes {
       m.baseColor = glm::vec3(0.0f);
     }
     setColor(m);
+    if (kind_.name == "gltf") return applyGltf(s);
     if (!has("ior")) return;
     m.ior = number("ior");
     m.roughness = std::sqrt(number("alpha"));
@@ -145,6 +147,35 @@ class Lobes {
   }
 
  private:
+  void applyGltf(Scattering& s) const {
+    rl::Material& m = s.lobes;
+    m.metallic = number("metallic");
+    m.roughness = number("roughness");
+    m.ior = number("ior");
+    m.specular = number("specular");
+    m.transmission = number("transmission");
+    std::vector<ClosureValue> layers(rl::RL_LAYER_COUNT);
+    const auto take = [&](uint32_t layer, const char* name, uint32_t flag) {
+      layers[layer] = of(name);
+      if (floats(layers[layer].words) != glm::vec3(0.0f)) s.flags |= flag;
+    };
+    take(rl::RL_LAYER_CLEARCOAT, "clearcoat", rl::RL_MATERIAL_CLEARCOAT);
+    take(rl::RL_LAYER_CLEARCOAT_ROUGHNESS, "clearcoat_roughness", 0u);
+    take(rl::RL_LAYER_SHEEN_COLOR, "sheen", rl::RL_MATERIAL_SHEEN);
+    take(rl::RL_LAYER_SHEEN_ROUGHNESS, "sheen_roughness", 0u);
+    take(rl::RL_LAYER_ANISOTROPY, "anisotropy", rl::RL_MATERIAL_ANISOTROPY);
+    const double angle = number("anisotropy_rotation");
+    layers[rl::RL_LAYER_ANISOTROPY].words =
+        bits({number("anisotropy"), std::cos(angle), std::sin(angle)});
+    take(rl::RL_LAYER_IRIDESCENCE, "iridescence", rl::RL_MATERIAL_IRIDESCENCE);
+    layers[rl::RL_LAYER_FILM].words = bits({0.0, number("film_thickness"), number("film_ior")});
+    take(rl::RL_LAYER_DIFFUSE_TRANSMISSION, "diffuse_transmission",
+         rl::RL_MATERIAL_DIFFUSE_TRANSMISSION);
+    take(rl::RL_LAYER_DIFFUSE_TRANSMISSION_COLOR, "diffuse_transmission_color", 0u);
+    if (m.transmission > 0.0f)
+      take(rl::RL_LAYER_DISPERSION, "dispersion", rl::RL_MATERIAL_DISPERSION);
+    if ((s.flags & rl::RL_MATERIAL_LAYERS) != 0) s.closure = std::move(layers);
+  }
   bool has(const char* name) const { return find(name) < kind_.parameters.size(); }
   size_t find(const char* name) const {
     size_t i = 0;
@@ -244,10 +275,11 @@ uint32_t SceneFileInputs::addPart(const std::string& name, const std::string& pl
                           didYouMean(name, names)));
   }
   const std::string& kind = scattering->kind->name;
-  if (scattering->lobes.transmission > 0.0f || kind == "mixture")
+  const bool hasLayers = (scattering->flags & rl::RL_MATERIAL_LAYERS) != 0;
+  if (scattering->lobes.transmission > 0.0f || hasLayers || kind == "mixture")
     failInput(
-        fmt::format("{}: '{}' is of kind '{}': a mixture takes kinds that reflect alone, and "
-                    "no other mixture",
+        fmt::format("{}: '{}' is of kind '{}': a mixture takes kinds that reflect alone, "
+                    "without layers, and no other mixture",
                     place, name, kind));
   SceneMaterial material;
   material.name = name;

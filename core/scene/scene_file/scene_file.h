@@ -53,11 +53,11 @@ struct Scattering {
   std::string name;
   const MaterialKind* kind = nullptr;
   rl::Material lobes{};               // of a kind that the lobes of glTF stand for
-  std::vector<ClosureValue> closure;  // else
+  std::vector<ClosureValue> closure;  // else, or of layers of glTF
   glm::vec3 sigmaScattering{0.0f};    // SceneMaterial
   float phase = 0.0f;
   bool hasDiffusion = false;
-  uint32_t flags = 0;  // RL_MATERIAL_BLACK, _THIN, _ANISOTROPIC
+  uint32_t flags = 0;  // RL_MATERIAL_BLACK, _THIN, _ANISOTROPIC, _LAYERS
 };
 
 // The things that parameters name: images and tables relative to `folder`, read once each and added

@@ -16,9 +16,10 @@ RL_FN float fresnelDielectric(float cosI, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-// Reflectance of the layer at the angle between direction and microfacet normal. Opaque materials
-// use Schlick's form; transmissive ones the exact dielectric curve, rescaled to go from f0 to f90.
-RL_FN vec3 fresnelOfBsdf(RL_IN(Bsdf) b, float cosVH) {
+// Reflectance of the layer at the angle between direction and microfacet normal, without a film.
+// Opaque materials use Schlick's form; transmissive ones the exact dielectric curve, rescaled to go
+// from f0 to f90.
+RL_FN vec3 fresnelPlain(RL_IN(Bsdf) b, float cosVH) {
   float weight = 0.0f;
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
     float r = (1.0f - b.eta) / (1.0f + b.eta);

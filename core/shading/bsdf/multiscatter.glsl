@@ -30,10 +30,13 @@ RL_FN void multiscatterAlbedo(float alpha, float cosTheta, RL_OUT(vec2) at, RL_O
 }
 
 // Returns whether this BSDF is compensated: only rough reflection of opaque materials. The loss of
-// a rough dielectric leaves on both of its sides, which this model does not describe.
+// a rough dielectric leaves on both of its sides, which this model does not describe. A film's
+// reflectance has no mean to sum with. Facets stretched along the tangent are compensated as if
+// they had the smaller alpha, which returns less than they lose.
 RL_FN bool multiscatterApplies(RL_IN(Bsdf) b) {
   return RL_HAS(RL_FEATURE_MULTISCATTER) && gFrame.multiscatter != 0u &&
-         (b.lobes & RL_LOBE_SPECULAR) != 0u && (b.lobes & RL_LOBE_ANY_TRANSMISSION) == 0u;
+         (b.lobes & RL_LOBE_SPECULAR) != 0u && (b.lobes & RL_LOBE_ANY_TRANSMISSION) == 0u &&
+         !thinFilmIs(b);
 }
 
 // F_ms, with the cosine-weighted mean of Schlick's formula: F_avg = f0 + (f90 - f0) / 21.
@@ -53,8 +56,8 @@ RL_FN vec3 multiscatterEval(RL_IN(Bsdf) b, float cosO, float cosI) {
   vec2 atO;
   vec2 atI;
   vec2 mean;
-  multiscatterAlbedo(b.alpha, cosO, atO, mean);
-  multiscatterAlbedo(b.alpha, cosI, atI, mean);
+  multiscatterAlbedo(clearcoatAlphaBelow(b), cosO, atO, mean);
+  multiscatterAlbedo(clearcoatAlphaBelow(b), cosI, atI, mean);
   vec3 fresnel = multiscatterFresnel(b, mean.x);
   vec3 f = fresnel * (atO.x * atI.x * rlSafeDivide(1.0f, mean.x));
   if ((b.lobes & RL_LOBE_DIFFUSE) != 0u) {
@@ -71,7 +74,7 @@ RL_FN vec3 multiscatterEval(RL_IN(Bsdf) b, float cosO, float cosI) {
 RL_FN vec2 multiscatterLuminances(RL_IN(Bsdf) b, float cosO) {
   vec2 at;
   vec2 mean;
-  multiscatterAlbedo(b.alpha, cosO, at, mean);
+  multiscatterAlbedo(clearcoatAlphaBelow(b), cosO, at, mean);
   vec3 once = multiscatterSingle(b, at);
   vec3 more = multiscatterFresnel(b, mean.x) * at.x;
   float through = 1.0f - min(rlMax3(once + more), 1.0f);
