@@ -21,6 +21,8 @@ namespace rl {
 
 using namespace glm;
 using uint = std::uint32_t;
+// Features and kinds of closures of a scene (core/dialect/features.h).
+using FeatureMask = std::uint64_t;
 
 // The resampling algebra is written with `real`: float when rendering, double in the exact tests.
 #ifdef RL_REAL_DOUBLE
@@ -117,10 +119,15 @@ inline uint atomicGreatest(uint* data, std::size_t i, uint value) {
   ::rl::atomicAt((ref).data, i).fetch_add(value, std::memory_order_relaxed)
 #define RL_ATOMIC_MAX(ref, i, value) ::rl::atomicGreatest((ref).data, i, value)
 #define RL_ATOMIC_CAS(ref, i, expected, value) ::rl::atomicCas((ref).data, i, expected, value)
+// Kinds of closures stand above the other features. On the GPU they have a word of their own.
+#define RL_HAS_CLOSURES RL_HAS(::rl::RL_FEATURE_CLOSURES)
+#define RL_HAS_CLOSURE(kind) \
+  RL_HAS(::rl::FeatureMask{1} << (::rl::RL_FEATURE_CLOSURE_SHIFT + (kind)))
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
 
+#define FeatureMask uint
 #define real float
 #define real3 vec3
 #define RL_NAMESPACE_BEGIN
