@@ -9,7 +9,7 @@ namespace restlab {
 enum class KernelChoice {
   exact,    // compiled for exactly the features of the scene, when a session begins
   builtIn,  // the smallest of those that were compiled with the program
-  general,  // with all features; on Vulkan all that glTF has, and the closures of the scene
+  general,  // with all features; on Vulkan all that glTF has, and closures and layers of the scene
 };
 
 // Their names: "exact", "built-in", "general".

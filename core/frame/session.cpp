@@ -27,9 +27,11 @@ constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth",
                                             "object",   "emission",  "motion",  "ambient"};
 
-// Features of general kernels: all that glTF can ask for. Of closures they have those of the scene,
-// as each lengthens every kernel.
-rl::FeatureMask generalFeatures(rl::FeatureMask needed) { return rl::RL_FEATURE_GLTF | needed; }
+// Features of general kernels: all that glTF can ask for. Of closures and layers they have those of
+// the scene, as each lengthens every kernel.
+rl::FeatureMask generalFeatures(rl::FeatureMask needed) {
+  return (rl::RL_FEATURE_GLTF & ~rl::RL_FEATURE_LAYERS) | needed;
+}
 
 // RAII: installs a stop callback for its lifetime.
 class Stops {
