@@ -67,7 +67,7 @@ function(rl_add_closures)
     list(APPEND names CLOSURE_${upper})
     set(RL_FEATURE_BIT_CLOSURE_${upper} ${value} PARENT_SCOPE)
     string(APPEND constants "const uint RL_CLOSURE_${upper} = ${number}u;\n")
-    string(APPEND features "const FeatureMask RL_FEATURE_CLOSURE_${upper} = ${value}ull;\n")
+    string(APPEND features "const FeatureMask RL_FEATURE_CLOSURE_${upper} = FeatureMask(1u) << (32u + ${number}u);\n")
     set(unless "#ifndef RL_LACKS_CLOSURE_${number}\n")
     string(APPEND declared "RL_CLOSURE_INFO(${name}, RL_CLOSURE_${upper}, RL_FEATURE_CLOSURE_${upper})\n#include \"core/shading/closures/${name}.glsl\"\nRL_CLOSURE_INFO_END\n")
     # A mixture calls the switch, so it cannot stand in it: core/dialect/order.glsl includes it later.
@@ -86,6 +86,7 @@ function(rl_add_closures)
     message(FATAL_ERROR "${bit} features, ${number} closures: at most 32 and 30 fit into a mask")
   endif()
   math(EXPR all "${scene} | ${kinds}")
+  math(EXPR kind_word "${kinds} >> 32")
   set(RL_FEATURE_NAMES ${names} PARENT_SCOPE)
   set(RL_FEATURE_BIT_ALL ${all} PARENT_SCOPE)
   set(folder ${PROJECT_BINARY_DIR}/generated/closures)
@@ -102,9 +103,9 @@ RL_NAMESPACE_BEGIN
 
 @constants@const uint RL_CLOSURE_COUNT = @number@u;  // without glTF's
 #ifdef __cplusplus
-@features@const FeatureMask RL_FEATURE_CLOSURES = @kinds@ull;
+@features@const FeatureMask RL_FEATURE_CLOSURES = FeatureMask(@kind_word@u) << 32u;
 const FeatureMask RL_FEATURE_GLTF = @gltf@u;  // all that glTF can ask for
-const FeatureMask RL_FEATURE_ALL = @all@ull;
+const FeatureMask RL_FEATURE_ALL = RL_FEATURE_CLOSURES | @scene@u;
 const uint RL_FEATURE_CLOSURE_SHIFT = 32u;  // kind i of a closure has the bit i above
 #endif
 

@@ -9,6 +9,10 @@
 
 namespace restlab {
 
+rl::FeatureMask generalFeatures(rl::FeatureMask needed) {
+  return (rl::RL_FEATURE_GLTF & ~rl::RL_FEATURE_LAYERS) | needed;
+}
+
 const std::vector<std::string>& kernelChoiceNames() {
   static const std::vector<std::string> names = {"exact", "built-in", "general"};
   return names;

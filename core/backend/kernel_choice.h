@@ -4,15 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "core/dialect/features.h"
+
 namespace restlab {
 
 enum class KernelChoice {
   exact,    // compiled for exactly the features of the scene, when a session begins
   builtIn,  // the smallest of those that were compiled with the program
-  general,  // with all features; on Vulkan all that glTF has, and the closures of the scene
+  general,  // with all features; on Vulkan all that glTF has, and closures and layers of the scene
 };
 
-// Their names: "exact", "built-in", "general".
+// Features of general kernels: all that glTF can ask for. Of closures and layers they have those of
+// the scene, as each lengthens every kernel.
+rl::FeatureMask generalFeatures(rl::FeatureMask needed);
+
+// Names of choices: "exact", "built-in", "general".
 const std::vector<std::string>& kernelChoiceNames();
 std::string kernelChoiceName(KernelChoice choice);
 // `where` names the option or the setting in errors. Throws Error (badUsage) for an unknown name.

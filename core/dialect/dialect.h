@@ -21,6 +21,8 @@ namespace rl {
 
 using namespace glm;
 using uint = std::uint32_t;
+// Features and kinds of closures of a scene (core/dialect/features.h).
+using FeatureMask = std::uint64_t;
 
 // The resampling algebra is written with `real`: float when rendering, double in the exact tests.
 #ifdef RL_REAL_DOUBLE
@@ -124,10 +126,15 @@ inline void markAt(uint* data, std::size_t i) {
 #define RL_ATOMIC_CAS(ref, i, expected, value) ::rl::atomicCas((ref).data, i, expected, value)
 // Sets a uint to 1 that several pixels may set. Reads first: most find it set.
 #define RL_MARK(ref, i) ::rl::markAt((ref).data, i)
+// Kinds of closures stand above the other features. On the GPU they have a word of their own.
+#define RL_HAS_CLOSURES RL_HAS(::rl::RL_FEATURE_CLOSURES)
+#define RL_HAS_CLOSURE(kind) \
+  RL_HAS(::rl::FeatureMask{1} << (::rl::RL_FEATURE_CLOSURE_SHIFT + (kind)))
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60
 
+#define FeatureMask uint
 #define real float
 #define real3 vec3
 #define RL_NAMESPACE_BEGIN

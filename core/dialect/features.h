@@ -9,15 +9,6 @@
 
 RL_NAMESPACE_BEGIN
 
-#ifdef __cplusplus
-using FeatureMask = std::uint64_t;
-#define RL_HAS_CLOSURES RL_HAS(::rl::RL_FEATURE_CLOSURES)
-#define RL_HAS_CLOSURE(kind) \
-  RL_HAS(::rl::FeatureMask{1} << (::rl::RL_FEATURE_CLOSURE_SHIFT + (kind)))
-#else
-#define FeatureMask uint
-#endif
-
 const FeatureMask RL_FEATURE_AREA_LIGHTS = 1u;      // emissive triangles
 const FeatureMask RL_FEATURE_PUNCTUAL_LIGHTS = 2u;  // point, spot, directional
 const FeatureMask RL_FEATURE_ENVIRONMENT = 4u;      // environment map

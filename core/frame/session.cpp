@@ -26,10 +26,6 @@ constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth",
                                             "object",   "emission",  "motion",  "ambient"};
 
-// Features of general kernels: all that glTF can ask for. Of closures they have those of the scene,
-// as each lengthens every kernel.
-rl::FeatureMask generalFeatures(rl::FeatureMask needed) { return rl::RL_FEATURE_GLTF | needed; }
-
 // RAII: installs a stop callback for its lifetime.
 class Stops {
  public:
@@ -121,9 +117,8 @@ void Session::Impl::open() {
                           config.height));
   }
   needed = scene->features(config.multiscatter);
-  const bool hasLightTree = config.lightChoice == kLightChoiceTree && scene->lampCount() > 1;
-  if (hasLightTree) needed |= rl::RL_FEATURE_LIGHT_TREE;
-  const bool multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0;
+  if (config.lightChoice == kLightChoiceTree && scene->lampCount() > 1)
+    needed |= rl::RL_FEATURE_LIGHT_TREE;
   bindTables(*scene);
   beforeFrame.reset();
   pipeline.reset();
@@ -158,8 +153,8 @@ void Session::Impl::open() {
   f.maxBounces = directOnly ? std::min(config.maxBounces, 1u) : config.maxBounces;
   f.components = config.components;
   f.rouletteStart = config.russianRoulette ? rl::RL_ROULETTE_EARLIEST : rl::RL_INVALID;
-  f.multiscatter = multiscatter ? 1u : 0u;
-  f.lightTree = hasLightTree ? 1u : 0u;
+  f.multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0 ? 1u : 0u;
+  f.lightTree = (needed & rl::RL_FEATURE_LIGHT_TREE) != 0 ? 1u : 0u;
   useParameters();
   lastFrame = f;
   lastScene = scene;

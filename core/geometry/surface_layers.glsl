@@ -115,8 +115,9 @@ RL_FN void surfaceFilm(RL_INOUT(Surface) s, RL_IN(MaterialPoint) at) {
   s.bsdf.lobes = lobes;
 }
 
-RL_FN void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material, RL_IN(MaterialPoint) at,
-                            RL_IN(Instance) inst, RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
+RL_FN_OUTLINE void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material,
+                                    RL_IN(MaterialPoint) at, RL_IN(Instance) inst,
+                                    RL_IN(TriangleW) t, RL_IN(vec3) normalW) {
   if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return;
   if (RL_HAS(RL_FEATURE_DIFFUSE_TRANSMISSION) &&
       (material.flags & RL_MATERIAL_DIFFUSE_TRANSMISSION) != 0u) {

@@ -243,7 +243,7 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
   vec3 wiL = vec3(0.0f, 0.0f, 1.0f);
   uint lobe = RL_LOBE_DIFFUSE;
   bool byCosine = false;
-  // What is drawn of the layers above; the rest of uLobe chooses below.
+  // Layers above are drawn first; the rest of uLobe chooses below.
   vec2 q = vec2(0.0f, 0.0f);
   float below = 1.0f;
   bool isCoat = false;

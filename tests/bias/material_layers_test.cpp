@@ -57,7 +57,8 @@ Method weighted(double misExponent) {
 void expectTechniquesAgree(size_t runs) {
   const auto scene = layeredRoom();
   const stats::Truth truth = stats::truthOf(independentRuns(scene, weighted(1.0), 1, runs));
-  for (const Method& method : {weighted(8.0), pathMethod(16), restirMethod(8, 2)}) {
+  for (const Method& method :
+       {weighted(8.0), pathMethod(16), restirMethod(8, 2), restirMethod(8, 2, {}, "restir_pt")}) {
     const stats::BiasReport report = testMethod(scene, method, truth, runs);
     EXPECT_FALSE(report.failed()) << method.name << ": " << report.text();
   }

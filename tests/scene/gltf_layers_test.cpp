@@ -89,7 +89,7 @@ TEST(GltfLayers, EachNeedsItsFeature) {
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.at(0);
     EXPECT_EQ(scanFeatures(scene) & rl::RL_FEATURE_LAYERS, feature) << name;
     EXPECT_NE(scanFeatures(scene) & rl::RL_FEATURE_GLOSSY, 0u) << name;
-    // What an unlit material scatters does not matter.
+    // An unlit material scatters nothing.
     const Scene unlit = loadLayers({{name, values}, {"KHR_materials_unlit", json::object()}});
     EXPECT_EQ(scanFeatures(unlit) & rl::RL_FEATURE_LAYERS, 0u) << name;
   }

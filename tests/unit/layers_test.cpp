@@ -95,8 +95,8 @@ TEST(Layers, Reciprocity) {
   }
 }
 
-// What arrives leaves: white below a smooth coat, diffuse transmission, a coat over a mirror, clear
-// glass with any of it.
+// All light leaves again: white below a smooth coat, diffuse transmission, a coat over a mirror,
+// clear glass with any of it.
 TEST(Layers, NothingIsLostBelowThem) {
   const rl::Material white = builtin::lambert(kAll), mirror = builtin::metal(kAll, 0.0f);
   const rl::Material smooth = builtin::glass(0.0f, glm::vec3(0.0f));
@@ -114,7 +114,7 @@ TEST(Layers, NothingIsLostBelowThem) {
   for (const auto& [name, c] : cases) {
     for (const double angle : {0.0, 30.0, 60.0, 80.0}) {
       const glm::dvec3 albedo = albedoOf(c, directionAt(angle));
-      // Of colours, the film's transmission keeps what is left by the brightest channel.
+      // The film's transmission keeps, of all colours, what is left by the brightest channel.
       const double least = name.find("film") == 0 ? std::max({albedo.x, albedo.y, albedo.z})
                                                   : std::min({albedo.x, albedo.y, albedo.z});
       EXPECT_NEAR(least, 1.0, 0.012) << name << " at " << angle;
@@ -237,7 +237,7 @@ TEST(Layers, NoneIsNone) {
   EXPECT_NE(caseOf(gold, {.film = 1.0f}).bsdf.lobes & rl::RL_LOBE_FILM, 0u);
 }
 
-// As it gets thin, a film over a dielectric turns into the dielectric; at any thickness its mean
+// A film that gets thin turns into the dielectric below it; at any thickness its mean
 // over wavelengths is what its two interfaces reflect without interference.
 TEST(Layers, FilmsHaveTheirLimits) {
   Dialect<> d;
@@ -263,7 +263,7 @@ TEST(Layers, FilmsHaveTheirLimits) {
   const double least =
       std::pow((std::sqrt(r12) - std::sqrt(r23)) / (1.0 - std::sqrt(r12 * r23)), 2);
   EXPECT_NEAR(dark.y, least, 0.004);
-  // What has no colour has none: no thickness gives a grey base a colour by itself.
+  // A reflectance without colour has none: the fringes of a path of no length are white.
   const glm::vec3 none = d->thinFilmFringes(0.0f, glm::vec3(0.0f));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(none[c], 1.0f, 1e-4f);
 }
