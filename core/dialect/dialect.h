@@ -124,7 +124,7 @@ inline void markAt(uint* data, std::size_t i) {
   ::rl::atomicAt((ref).data, i).fetch_add(value, std::memory_order_relaxed)
 #define RL_ATOMIC_MAX(ref, i, value) ::rl::atomicGreatest((ref).data, i, value)
 #define RL_ATOMIC_CAS(ref, i, expected, value) ::rl::atomicCas((ref).data, i, expected, value)
-// Sets a uint to 1 that several pixels may set. Reads first: most find it set.
+// Sets a uint to 1 that several pixels may set. CPUs read first: most find it set.
 #define RL_MARK(ref, i) ::rl::markAt((ref).data, i)
 // Kinds of closures stand above the other features. On the GPU they have a word of their own.
 #define RL_HAS_CLOSURES RL_HAS(::rl::RL_FEATURE_CLOSURES)
@@ -151,8 +151,7 @@ inline void markAt(uint* data, std::size_t i) {
 #define RL_ATOMIC_ADD(ref, i, value) atomicAdd((ref).data[i], value)
 #define RL_ATOMIC_MAX(ref, i, value) atomicMax((ref).data[i], value)
 #define RL_ATOMIC_CAS(ref, i, expected, value) atomicCompSwap((ref).data[i], expected, value)
-#define RL_MARK(ref, i) \
-  if ((ref).data[i] == 0u) (ref).data[i] = 1u
+#define RL_MARK(ref, i) (ref).data[i] = 1u
 #define RL_STATIC_ASSERT_SIZE(T, bytes)
 
 #endif

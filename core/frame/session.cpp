@@ -125,6 +125,7 @@ void Session::Impl::open() {
   backend.reset();
   aovBuffers.clear();
   isAovTraced = false;
+  drawnLights = kNoBuffer;
   backend = makeBackend(config.backend, scene,
                         {config.threads, config.device, config.rayTracing, config.validate,
                          config.kernels == KernelChoice::exact});
@@ -454,6 +455,7 @@ Image Session::aov(const std::string& name) const {
 }
 
 DrawnLights Session::drawnLights() const {
+  if (impl_->drawnLights == kNoBuffer) return {};
   std::vector<uint32_t> words(impl_->scene->lightRecords());
   if (!words.empty())
     impl_->backend->read(impl_->drawnLights, words.data(), sizeof words[0] * words.size());

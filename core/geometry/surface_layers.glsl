@@ -133,6 +133,10 @@ RL_FN_OUTLINE void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) materia
       (s.bsdf.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u && (s.bsdf.lobes & RL_LOBE_THIN) == 0u) {
     float spread = 0.025f * closureNumber(at, RL_LAYER_DISPERSION) * (material.ior - 1.0f);
     spread = spread / material.ior;
+    // The index over that outside, which is not 1 in another body: no channel is bent the other
+    // way.
+    float index = s.isFront != 0u ? s.bsdf.eta : 1.0f / s.bsdf.eta;
+    spread = min(spread, RL_LARGEST_SPREAD * abs(index - 1.0f) / index);
     s.bsdf.p3.w = s.isFront != 0u ? spread : -spread;
     if (spread > 0.0f) s.bsdf.lobes = s.bsdf.lobes | RL_LOBE_DISPERSION;
   }

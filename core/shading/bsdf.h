@@ -55,6 +55,9 @@ const uint RL_MIXTURE_COUNT = 4u;
 
 // Reflectance at normal incidence of a clearcoat: index of refraction 1.5.
 const float RL_COAT_F0 = 0.04f;
+// Greatest spread of indices by dispersion, as a share of what the middle one differs from 1: red
+// light keeps an index that rough refraction can resolve.
+const float RL_LARGEST_SPREAD = 0.975f;
 // Least alpha of a sheen: a smoother one is nearly invisible, and rendered with this.
 const float RL_SHEEN_ALPHA_FLOOR = 0.01f;
 // Cells of sqrt(cos) and of sqrt(alpha) in the table of sheen albedos

@@ -159,6 +159,20 @@ TEST(GltfLayers, OutOfRangeIsDeclared) {
   EXPECT_TRUE(warns(scene, "its light is not darkened by the coat"));
 }
 
+// Beyond float32 the phase of a film has no cosine.
+TEST(GltfLayers, FilmsBeyondAllMeasureAreLimited) {
+  const Scene scene = loadLayers({{"KHR_materials_iridescence",
+                                   {{"iridescenceFactor", 1},
+                                    {"iridescenceIor", 1e20},
+                                    {"iridescenceThicknessMinimum", 1e30},
+                                    {"iridescenceThicknessMaximum", 1e30}}}});
+  EXPECT_EQ(valueOf(scene, rl::RL_LAYER_FILM), glm::vec3(1e5f, 1e5f, 4.0f));
+  for (const char* name : {"iridescenceIor: 4 is used instead of 1e+20",
+                           "iridescenceThicknessMinimum: 100000 is used instead of 1e+30",
+                           "iridescenceThicknessMaximum: 100000 is used instead of 1e+30"})
+    EXPECT_TRUE(warns(scene, name)) << name;
+}
+
 TEST(GltfLayers, DispersionNeedsAVolume) {
   const json dispersion = {{"dispersion", 1}}, transmission = {{"transmissionFactor", 1}};
   const Scene opaque = loadLayers({{"KHR_materials_dispersion", dispersion}});
@@ -170,8 +184,8 @@ TEST(GltfLayers, DispersionNeedsAVolume) {
   const Scene wide = loadLayers({{"KHR_materials_dispersion", {{"dispersion", 100}}},
                                  {"KHR_materials_transmission", transmission},
                                  {"KHR_materials_volume", {{"thicknessFactor", 1}}}});
-  EXPECT_TRUE(warns(wide, "40 is used instead of 100"));
-  EXPECT_EQ(valueOf(wide, rl::RL_LAYER_DISPERSION).x, 40.0f);
+  EXPECT_TRUE(warns(wide, "39 is used instead of 100"));
+  EXPECT_EQ(valueOf(wide, rl::RL_LAYER_DISPERSION).x, 39.0f);
 }
 
 }  // namespace

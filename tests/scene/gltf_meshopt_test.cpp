@@ -265,6 +265,14 @@ TEST(GltfMeshopt, DamagedStreamsBringOneLine) {
                                 ": the stream begins with the byte 0xe1; 0xa0 expected for "
                                 "mode ATTRIBUTES");
   }
+  for (const bool isTriangles : {true, false}) {
+    MeshoptFile file;  // an index that two bytes would cut to 4
+    file.view(indexStream({0, 1, 65540}, isTriangles, 65541), 3, 2,
+              isTriangles ? "TRIANGLES" : "INDICES");
+    EXPECT_EQ(file.error(), kMeshoptStream +
+                                ": holds an index above 65535, in elements of 2 bytes; 4 bytes "
+                                "expected");
+  }
   std::mt19937 random(1);
   std::vector<float> many(3000);
   for (float& number : many) number = float(random() % 1000);

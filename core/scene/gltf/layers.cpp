@@ -11,8 +11,11 @@
 namespace restlab::gltf {
 namespace {
 
-// Beyond this the index of red light would fall below 1.
-constexpr double kLargestDispersion = 40.0;
+// RL_LARGEST_SPREAD. At 40 the index of red light would be 1.
+constexpr double kLargestDispersion = 39.0;
+// Limits of films: fringes of thicker ones are finer than any spectrum shows.
+constexpr double kThickestFilm = 1.0e5;  // nm
+constexpr double kLargestFilmIor = 4.0;
 
 class LayerImporter {
  public:
@@ -94,6 +97,15 @@ class LayerImporter {
     setTexture(rl::RL_LAYER_ANISOTROPY, anisotropy, "anisotropyTexture", false);
   }
 
+  // A number above what a film may have counts as that, with a warning.
+  double limited(const Properties& of, const char* name, double otherwise, double most) {
+    const double value = of.number(name, otherwise);
+    if (value <= most) return value;
+    report_.warn("out of range", extension_ + "." + name,
+                 fmt::format("{:g} is used instead of {:g}", most, value));
+    return most;
+  }
+
   void importIridescence() {
     const Properties film = open("KHR_materials_iridescence");
     const double factor = film.number("iridescenceFactor", 0.0);
@@ -101,9 +113,9 @@ class LayerImporter {
     result_.data.flags |= rl::RL_MATERIAL_IRIDESCENCE;
     set(rl::RL_LAYER_IRIDESCENCE, factor);
     setTexture(rl::RL_LAYER_IRIDESCENCE, film, "iridescenceTexture", false, 0);
-    set(rl::RL_LAYER_FILM,
-        {film.number("iridescenceThicknessMinimum", 100.0),
-         film.number("iridescenceThicknessMaximum", 400.0), film.number("iridescenceIor", 1.3)});
+    set(rl::RL_LAYER_FILM, {limited(film, "iridescenceThicknessMinimum", 100.0, kThickestFilm),
+                            limited(film, "iridescenceThicknessMaximum", 400.0, kThickestFilm),
+                            limited(film, "iridescenceIor", 1.3, kLargestFilmIor)});
     setTexture(rl::RL_LAYER_FILM, film, "iridescenceThicknessTexture", false, 1);
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr const char* kMeshopt = "EXT_meshopt_compression";
 // no stream of this format is denser (two bits for 16 bytes).
 constexpr uint64_t kMaxMeshoptRatio = 64;
 constexpr uint64_t kFreeMeshoptBytes = uint64_t(1) << 26;  // views may share a stream
+constexpr int kTooLargeIndex = 1;  // beside the library's own results, 0 and negative ones
 
 const json* meshoptOf(const json& object) {
   const auto extensions = object.find("extensions");
@@ -108,12 +110,25 @@ void checkStream(const json& view, const MeshoptStream& stream, const json& buff
   }
 }
 
+// Indices as 32 bits: the library would cut them to 16 without a word.
+int decodeIndices(const MeshoptStream& stream, const uint8_t* bytes,
+                  std::vector<uint8_t>& decoded) {
+  std::vector<uint32_t> indices(stream.count);
+  const int result =
+      stream.mode == "TRIANGLES"
+          ? meshopt_decodeIndexBuffer(indices.data(), stream.count, 4, bytes, stream.length)
+          : meshopt_decodeIndexSequence(indices.data(), stream.count, 4, bytes, stream.length);
+  if (result != 0) return result;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    if (stream.stride == 2 && indices[i] > 0xffffu) return kTooLargeIndex;
+    std::memcpy(decoded.data() + i * stream.stride, &indices[i], stream.stride);
+  }
+  return 0;
+}
+
 int decodeStream(const MeshoptStream& stream, const uint8_t* bytes, std::vector<uint8_t>& decoded) {
   const size_t count = stream.count, stride = stream.stride, length = stream.length;
-  if (stream.mode == "TRIANGLES")
-    return meshopt_decodeIndexBuffer(decoded.data(), count, stride, bytes, length);
-  if (stream.mode == "INDICES")
-    return meshopt_decodeIndexSequence(decoded.data(), count, stride, bytes, length);
+  if (stream.mode != "ATTRIBUTES") return decodeIndices(stream, bytes, decoded);
   const int result = meshopt_decodeVertexBuffer(decoded.data(), count, stride, bytes, length);
   if (result != 0) return result;
   if (stream.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), count, stride);
@@ -186,7 +201,10 @@ void decodeMeshopt(json& document, std::vector<std::vector<uint8_t>>& buffers, R
     report.takeMemory(place, fmt::format("{} decoded bytes", stream.decodedBytes()),
                       stream.decodedBytes());
     std::vector<uint8_t> decoded(stream.decodedBytes());
-    if (decodeStream(stream, bytes, decoded) != 0) {
+    const int result = decodeStream(stream, bytes, decoded);
+    if (result == kTooLargeIndex)
+      report.fail(place, "holds an index above 65535, in elements of 2 bytes; 4 bytes expected");
+    if (result != 0) {
       report.fail(place, fmt::format("{} bytes, which are not a stream of {} elements of {} bytes "
                                      "in mode {}; the file is damaged",
                                      stream.length, stream.count, stream.stride, stream.mode));

@@ -50,7 +50,7 @@ std::vector<ClosureParameter> gltfParameters() {
       number("film_ior", 1.3, 1.0, 4.0, "index of refraction of the film"),
       number("diffuse_transmission", 0.0, 0.0, 1.0, "share of the diffuse part that passes"),
       color("diffuse_transmission_color", 1.0, "its colour"),
-      number("dispersion", 0.0, 0.0, 40.0, "20 over the Abbe number, of what refracts"),
+      number("dispersion", 0.0, 0.0, 39.0, "20 over the Abbe number, of what refracts"),
   };
 }
 

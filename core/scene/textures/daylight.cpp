@@ -159,7 +159,8 @@ class Builder {
       }
     }
     if (parts.empty()) {  // texels larger than the disc: it is in one of them
-      const auto x = static_cast<uint32_t>((d_.azimuth / 360.0 + 0.5) * map_.width);
+      const double turns = d_.azimuth / 360.0 + 0.5;
+      const auto x = static_cast<uint32_t>((turns - std::floor(turns)) * map_.width);
       const auto y = static_cast<uint32_t>((90.0 - d_.elevation) / 180.0 * map_.height);
       parts.push_back({x % map_.width, y, 1.0});
       covered = solidAngleOf(y);

@@ -1,5 +1,15 @@
 // How light divides between the lobes of glTF, and the probabilities of drawing them.
 
+// Share of light that passes to the transmission lobe. With dispersion each channel has its own:
+// one may still refract where another reflects all.
+RL_FN float bsdfRefractedShare(RL_IN(Bsdf) b, float cosO, float through) {
+  if (!dispersionIs(b)) return through;
+  float sum = 0.0f;
+  for (uint i = 0u; i < 3u; i = i + 1u)
+    sum += 1.0f - min(rlMax3(fresnelOfBsdf(dispersionChannel(b, i), cosO)), 1.0f);
+  return sum * (1.0f / 3.0f);
+}
+
 // Weights of the specular lobe, of those that are drawn by the cosine, and of the transmission
 // lobe.
 RL_FN vec3 bsdfLobeWeights(RL_IN(Bsdf) b, float cosO) {
@@ -20,7 +30,7 @@ RL_FN vec3 bsdfLobeWeights(RL_IN(Bsdf) b, float cosO) {
   }
   float transmitted = 0.0f;
   if (RL_HAS(RL_FEATURE_TRANSMISSION) && (b.lobes & RL_LOBE_ANY_TRANSMISSION) != 0u) {
-    transmitted = rlLuminance(b.transmission) * through;
+    transmitted = rlLuminance(b.transmission) * bsdfRefractedShare(b, cosO, through);
   }
   // Give every rough lobe a minimum probability, even if Fresnel at wo leaves it nothing:
   // microfacets turned towards wo still let light through. Delta lobes have no such facets and keep

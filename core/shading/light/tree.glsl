@@ -1,6 +1,6 @@
 // The choice of a lamp that knows the receiver: at each node of a hierarchy, a part with the
 // probability of its importance, a bound on what its lamps can send (Conty Estevez and Kulla 2018,
-// section 4). The probability of a lamp is that of the parts that lead to it, and exact.
+// section 4). The probability of a lamp is that of the parts that lead to it.
 
 RL_FN Lanes lightNodeFloats(uint node, uint row) {
   return lanesOfBits(RL_SCENE_UVEC4(gScene.lightTree, node * RL_LIGHT_NODE_UVEC4S + row));
@@ -91,7 +91,7 @@ RL_FN LightTurn lightTurn(uint node, RL_IN(LightReceiver) receiver) {
   if (importance.w > 0.0f) turn.last = 3u;
   // Leaves room for the shares of 256 and for rounding.
   float total = importance.x + importance.y + importance.z + importance.w;
-  float scale = rlSafeDivide(4294963200.0f, total);
+  float scale = min(rlSafeDivide(4294963200.0f, total), 3.0e38f);
   uint x = lightShareBits(importance.x, scale);
   uint y = lightShareBits(importance.y, scale);
   uint z = lightShareBits(importance.z, scale);
