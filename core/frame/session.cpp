@@ -76,7 +76,8 @@ struct Session::Impl {
   void open();
   // Creates the pipeline, with the kernels that the backend has or can compile.
   void openPipeline();
-  void bindTables(const CompiledScene& of) const;  // of the scene, that this session reads
+  // Makes a scene build the tables that the kernels read.
+  void bindTables(const CompiledScene& of) const;
   rl::FeatureMask wantedFeatures() const;
   // Opens with another configuration. If that throws, restarts the old configuration with a new
   // history.

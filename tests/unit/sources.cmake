@@ -65,5 +65,5 @@ foreach(file bsdf_sampling_test.cpp)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/${file} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 endforeach()
 
-# What tells tracers apart, and materials with layers, for other tests too.
+# Rays that tell tracers apart, and materials with layers, for other tests too.
 set(RL_UNIT_SOURCES layered.cpp ray_cases.cpp)
