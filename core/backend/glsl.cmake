@@ -1,6 +1,7 @@
 # rl_glsl: kernels as GLSL and their compilation.
 add_library(rl_glsl STATIC
   ${CMAKE_CURRENT_LIST_DIR}/glsl_compiler.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/spirv_fold.cpp
   ${CMAKE_CURRENT_LIST_DIR}/glsl_preamble.cpp
 )
 if(RESTLAB_SANITIZE MATCHES "undefined")
@@ -9,4 +10,5 @@ if(RESTLAB_SANITIZE MATCHES "undefined")
                               -fno-sanitize=vptr)
 endif()
 target_link_libraries(rl_glsl PUBLIC rl_options glm::glm fmt::fmt
-                      PRIVATE glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)
+                      PRIVATE glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits
+                              SPIRV-Tools-opt)

@@ -13,12 +13,12 @@ constexpr const char* kText = R"(#version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-{extensions}{reads}{lacks}#include "core/dialect/order.h"
+{extensions}{reads}#include "core/dialect/order.h"
 #include "{header}"
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
-layout(constant_id = 0) const uint kFeatures = 0xffffffffu;
-layout(constant_id = 1) const uint kClosures = 0xffffffffu;
+const uint kFeatures = {features}u;
+const uint kClosures = {closures}u;
 
 // Each address leads to one struct: push constants hold 128 bytes on some devices.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlSceneRef {{
@@ -141,28 +141,16 @@ void main() {{
 }}
 )";
 
-// For the switch that cmake/closures.cmake writes.
-std::string lackedClosures(rl::FeatureMask features) {
-  std::string lines;
-  const uint32_t kinds = glslFeatureWords(features)[1];
-  for (uint32_t kind = 1; kind <= rl::RL_CLOSURE_COUNT; ++kind)
-    if ((kinds >> kind & 1u) == 0) lines += fmt::format("#define RL_LACKS_CLOSURE_{}\n", kind);
-  return lines;
-}
-
 }  // namespace
 
-std::array<uint32_t, 2> glslFeatureWords(rl::FeatureMask features) {
-  return {static_cast<uint32_t>(features),
-          static_cast<uint32_t>(features >> rl::RL_FEATURE_CLOSURE_SHIFT)};
-}
-
 std::string glslKernelSource(const GlslKernel& kernel) {
+  const uint32_t features = static_cast<uint32_t>(kernel.features);
+  const uint32_t closures = static_cast<uint32_t>(kernel.features >> rl::RL_FEATURE_CLOSURE_SHIFT);
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
                      fmt::arg("copies", kGlslCopies), fmt::arg("extensions", kernel.extensions),
                      fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""),
-                     fmt::arg("lacks", lackedClosures(kernel.features)));
+                     fmt::arg("features", features), fmt::arg("closures", closures));
 }
 
 }  // namespace restlab

@@ -17,8 +17,6 @@ struct GlslKernel {
   std::string traceFile;        // defines traceRay()
   std::string extensions = {};  // "#extension" lines that the trace file needs
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
-  // Closures that are not among these are left out of the text: drivers take long over code that a
-  // constant makes dead.
   rl::FeatureMask features = rl::RL_FEATURE_ALL;
 };
 
@@ -76,11 +74,8 @@ struct GlslPushConstants {
   uint32_t width = 0, height = 0;
 };
 
-// The words that a feature mask has in a shader: features, and kinds of closures.
-std::array<uint32_t, 2> glslFeatureWords(rl::FeatureMask features);
-
 // The whole compute shader, with #include lines that the compiler's includer resolves against the
-// repository. Specialization constants 0 and 1 are the words of the feature mask.
+// repository. The feature mask is two constants: features, and kinds of closures.
 std::string glslKernelSource(const GlslKernel& kernel);
 
 }  // namespace restlab

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <glslang/build_info.h>
+#include <spirv-tools/libspirv.h>
 
 #include <chrono>
 #include <cstring>
 
 #include "core/backend/dialect_sources.h"
+#include "core/backend/spirv_fold.h"
 #include "core/backend/vulkan_error.h"
 #include "core/base/error.h"
 
@@ -46,11 +48,12 @@ VkDescriptorType typeOf(uint32_t binding) {
 
 uint32_t copiesOf(uint32_t binding) { return binding < kGlslSceneUvec4s ? kGlslCopies : 1; }
 
-// Cache key of a shader: hash of glslang's version, of the shader's text and of all files it may
-// include.
+// Cache key of a shader: hash of the versions of glslang and SPIRV-Tools, of the shader's text and
+// of all files it may include.
 std::string expandedKey(const std::string& text, const SourceReader& read) {
-  std::string all = fmt::format("glslang {}.{}.{} ", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
-                                GLSLANG_VERSION_PATCH);
+  std::string all =
+      fmt::format("glslang {}.{}.{} {} ", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
+                  GLSLANG_VERSION_PATCH, spvSoftwareVersionDetailsString());
   std::vector<std::string> open = {text};
   std::map<std::string, bool> seen;
   while (!open.empty()) {
@@ -134,6 +137,9 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
     throw Error(ExitCode::deviceUnavailable,
                 fmt::format("kernel {} does not compile: {}", name, firstError(result.log)));
   }
+  std::string reason;
+  if (!foldSpirv(result.spirv, reason))
+    notices_.push_back(fmt::format("kernel {} takes longer to compile: {}", name, reason));
   cache_.write(file, result.spirv.data(), result.spirv.size() * 4);
   return result.spirv;
 }
@@ -161,10 +167,6 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   VkShaderModule shader = VK_NULL_HANDLE;
   device_->check(vkCreateShaderModule(device_->handle(), &moduleInfo, nullptr, &shader),
                  "vkCreateShaderModule");
-  const std::array<uint32_t, 2> words = glslFeatureWords(mask);
-  const std::array<VkSpecializationMapEntry, 2> entries = {
-      {{0, 0, sizeof(uint32_t)}, {1, sizeof(uint32_t), sizeof(uint32_t)}}};
-  const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
@@ -172,7 +174,6 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
   info.stage.module = shader;
   info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_;
   const VkResult result =
       vkCreateComputePipelines(device_->handle(), driverCache_, 1, &info, nullptr, &known);

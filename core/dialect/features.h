@@ -1,5 +1,5 @@
 // Feature bits of a scene. Kernels are specialised by a mask of these bits: a template argument on
-// the CPU, two specialization constants on the GPU. core/scene/compiled/feature_scan.cpp sets them.
+// the CPU, two constants in the text on the GPU. core/scene/compiled/feature_scan.cpp sets them.
 #ifndef RL_FEATURES_H
 #define RL_FEATURES_H
 

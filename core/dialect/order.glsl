@@ -30,9 +30,7 @@
 #include "core/geometry/material_point.glsl"
 #include "closures/switch.glsl"
 #include "core/geometry/material_lobes.glsl"
-#ifdef RL_KEEPS_MIXTURE
 #include "core/shading/closures/mixture.glsl"
-#endif
 #include "core/shading/bsdf.glsl"
 #include "core/geometry/surface.glsl"
 #include "core/geometry/surface_layers.glsl"

@@ -263,12 +263,10 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     s.bsdf.closure = material.closure;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
       s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
-#ifdef RL_KEEPS_MIXTURE
     if (RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
       mixtureLoad(s.bsdf, at, hit.instance, hit.primitive);
       return s;
     }
-#endif
     closureLoad(s.bsdf, at);
     return s;
   }

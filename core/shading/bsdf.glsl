@@ -174,7 +174,6 @@ RL_FN vec3 bsdfEvalAndPdfOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nSha
   return bsdfSumLocal(b, woL, wiL, mirroredL, pdf);
 }
 
-#ifdef RL_KEEPS_MIXTURE
 // Sums over the materials of a mixture, with one call site for all.
 RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                           RL_IN(vec3) wi, RL_OUT(float) pdf) {
@@ -198,12 +197,6 @@ RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, R
   }
   return f;
 }
-#else
-RL_FN vec3 bsdfEvalAndPdf(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
-                          RL_IN(vec3) wi, RL_OUT(float) pdf) {
-  return bsdfEvalAndPdfOfOne(b, nGeo, nShade, wo, wi, pdf);
-}
-#endif
 
 RL_FN vec3 bsdfEval(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                     RL_IN(vec3) wi) {
@@ -362,7 +355,6 @@ RL_FN BsdfSample bsdfSampleOfOne(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nS
 // uLobe chooses the lobe (of a mixture the material as well), u the direction. lobe 0: absorbed.
 RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade, RL_IN(vec3) wo,
                             float uLobe, RL_IN(vec2) u) {
-#ifdef RL_KEEPS_MIXTURE
   Bsdf part = b;
   float ofLobe = uLobe;
   uint i = 0u;
@@ -385,9 +377,6 @@ RL_FN BsdfSample bsdfSample(RL_IN(Bsdf) b, RL_IN(vec3) nGeo, RL_IN(vec3) nShade,
   s.pdfSolidAngle = pdf;
   s.weight = f * (1.0f / pdf);
   return s;
-#else
-  return bsdfSampleOfOne(b, nGeo, nShade, wo, uLobe, u);
-#endif
 }
 
 // Returns whether the BSDF is Lambert alone: the light it sends does not depend on the direction.
