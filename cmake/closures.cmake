@@ -4,9 +4,9 @@
 #   switch.glsl   the files, and the functions that call the one of a surface
 #   declared.inl  what each file says about itself, for core/scene/closure_info.cpp
 
-# Reads the names into <result>.
-function(rl_read_closures result)
-  set(file ${PROJECT_SOURCE_DIR}/core/shading/closures/closures.list)
+# Reads the names of <folder>/<list> into <result>; each is a file <name>.glsl there.
+function(rl_read_kinds result folder list)
+  set(file ${PROJECT_SOURCE_DIR}/${folder}/${list})
   set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(STRINGS ${file} lines)
   set(names "")
@@ -19,16 +19,16 @@ function(rl_read_closures result)
     if(NOT line MATCHES "^[a-z][a-z_]*$" OR line IN_LIST names)
       message(FATAL_ERROR "${file}: expected a new name of [a-z_] a line, got '${line}'")
     endif()
-    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/shading/closures/${line}.glsl)
-      message(FATAL_ERROR "${file}: no core/shading/closures/${line}.glsl")
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${folder}/${line}.glsl)
+      message(FATAL_ERROR "${file}: no ${folder}/${line}.glsl")
     endif()
     list(APPEND names ${line})
   endforeach()
   set(${result} ${names} PARENT_SCOPE)
 endfunction()
 
-# Turns snake_case into camelCase, the prefix of a closure's functions.
-function(rl_closure_prefix name result)
+# Turns snake_case into camelCase, the prefix of the functions of a kind.
+function(rl_kind_prefix name result)
   string(REPLACE "_" ";" words ${name})
   list(POP_FRONT words prefix)
   foreach(word IN LISTS words)
@@ -40,10 +40,10 @@ function(rl_closure_prefix name result)
   set(${result} ${prefix} PARENT_SCOPE)
 endfunction()
 
-# After rl_read_feature_bits(): adds the closures' bits to RL_FEATURE_NAMES and RL_FEATURE_BIT_*, sets
+# After rl_read_feature_bits() and rl_add_shapes(): adds the closures' and the shapes' bits to RL_FEATURE_NAMES and RL_FEATURE_BIT_*, sets
 # RL_FEATURE_BIT_ALL and RL_CLOSURE_SOURCES, the generated files that kernels include.
 function(rl_add_closures)
-  rl_read_closures(closures)
+  rl_read_kinds(closures core/shading/closures closures.list)
   list(LENGTH RL_FEATURE_NAMES bit)
   math(EXPR scene "(1 << ${bit}) - 1")
   # Leaves out the features that no glTF file asks for but scene files and settings.
@@ -63,7 +63,7 @@ function(rl_add_closures)
     math(EXPR value "1 << (32 + ${number})")
     math(EXPR kinds "${kinds} | ${value}")
     string(TOUPPER ${name} upper)
-    rl_closure_prefix(${name} prefix)
+    rl_kind_prefix(${name} prefix)
     list(APPEND names CLOSURE_${upper})
     set(RL_FEATURE_BIT_CLOSURE_${upper} ${value} PARENT_SCOPE)
     string(APPEND constants "const uint RL_CLOSURE_${upper} = ${number}u;\n")
@@ -80,12 +80,12 @@ function(rl_add_closures)
     string(APPEND samples "  if (${is}) return ${prefix}Sample(b, woL, uLobe, u);\n")
   endforeach()
   # cmake's numbers have a sign.
-  if(bit GREATER 32 OR number GREATER 30)
-    message(FATAL_ERROR "${bit} features, ${number} closures: at most 32 and 30 fit into a mask")
+  if(bit GREATER 32 OR number GREATER 15)
+    message(FATAL_ERROR "${bit} features, ${number} closures: at most 32 and 15 fit into a mask")
   endif()
-  math(EXPR all "${scene} | ${kinds}")
+  math(EXPR all "${scene} | ${kinds} | ${RL_SHAPE_BITS}")
   math(EXPR kind_word "${kinds} >> 32")
-  set(RL_FEATURE_NAMES ${names} PARENT_SCOPE)
+  set(RL_FEATURE_NAMES ${names} ${RL_SHAPE_NAMES} PARENT_SCOPE)
   set(RL_FEATURE_BIT_ALL ${all} PARENT_SCOPE)
   set(folder ${PROJECT_BINARY_DIR}/generated/closures)
   file(CONFIGURE OUTPUT ${folder}/list.h @ONLY CONTENT
@@ -96,6 +96,7 @@ function(rl_add_closures)
 #ifdef __cplusplus
 #include "core/dialect/dialect.h"
 #endif
+#include "shapes/list.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -103,7 +104,7 @@ RL_NAMESPACE_BEGIN
 #ifdef __cplusplus
 @features@const FeatureMask RL_FEATURE_CLOSURES = FeatureMask(@kind_word@u) << 32u;
 const FeatureMask RL_FEATURE_GLTF = @gltf@u;  // all that glTF can ask for
-const FeatureMask RL_FEATURE_ALL = RL_FEATURE_CLOSURES | @scene@u;
+const FeatureMask RL_FEATURE_ALL = RL_FEATURE_CLOSURES | RL_FEATURE_SHAPES | @scene@u;
 const uint RL_FEATURE_CLOSURE_SHIFT = 32u;  // kind i of a closure has the bit i above
 #endif
 

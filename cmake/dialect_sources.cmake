@@ -6,7 +6,7 @@ function(rl_embed_dialect output)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   endforeach()
   list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/*.glsl) # of devices alone
-  foreach(file IN ITEMS cpu_kernel.inl cpu_trace.inl cpu_kernel.h embree.h alpha_filter.h) # of units alone
+  foreach(file IN ITEMS cpu_kernel.inl cpu_trace.inl cpu_kernel.h embree.h trace_callbacks.h) # of units alone
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/${file})
   endforeach()
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
@@ -14,8 +14,9 @@ function(rl_embed_dialect output)
   list(TRANSFORM files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
   get_property(kernels GLOBAL PROPERTY RL_KERNEL_ROWS)
   list(JOIN files "," files)
-  list(JOIN RL_CLOSURE_SOURCES "," generated)
-  list(TRANSFORM RL_CLOSURE_SOURCES PREPEND ${RL_GENERATED_DIR}/ OUTPUT_VARIABLE generated_paths)
+  set(generated ${RL_CLOSURE_SOURCES} ${RL_SHAPE_SOURCES})
+  list(TRANSFORM generated PREPEND ${RL_GENERATED_DIR}/ OUTPUT_VARIABLE generated_paths)
+  list(JOIN generated "," generated)
   list(JOIN kernels "," kernels)
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D GENERATED_DIR=${RL_GENERATED_DIR}

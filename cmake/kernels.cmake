@@ -62,6 +62,7 @@ endfunction()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
              ${PROJECT_SOURCE_DIR}/core/features.list ${PROJECT_SOURCE_DIR}/core/dialect/features.h)
 rl_read_feature_bits()
+rl_add_shapes()
 rl_add_closures()
 rl_read_masks(${PROJECT_SOURCE_DIR}/core/features.list)
 
@@ -71,7 +72,7 @@ target_link_libraries(rl_kernels PUBLIC rl_options embree glm::glm)
 # As core/backend/cpu_kernel.inl says; for clang++, which tests/lint compiles kernels with.
 target_compile_options(rl_kernels PRIVATE -Wno-unused-parameter)
 # What core/backend/cpu_kernel.inl includes: a third of a kernel's compile time.
-target_precompile_headers(rl_kernels PRIVATE core/backend/embree.h core/backend/alpha_filter.h
+target_precompile_headers(rl_kernels PRIVATE core/backend/embree.h core/backend/trace_callbacks.h
                           core/backend/cpu_kernel.h core/dialect/order.h)
 # For ccache.
 target_compile_options(rl_kernels PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)

@@ -3,7 +3,7 @@
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
 #include "core/base/error.h"
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/dialect/order.h"
 #include "core/scene/compiled/compiled_scene.h"
 

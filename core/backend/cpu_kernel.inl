@@ -4,7 +4,7 @@
 // traceRay() (without it, Embree's), and RL_KERNEL_MASKS(M): M(name, features) for each mask.
 #include "core/backend/embree.h"
 
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/dialect/order.h"
 #include RL_KERNEL_HEADER

@@ -2,7 +2,7 @@
 
 // Embree hands the context back to the alpha filters; the kernel context follows Embree's.
 struct TraceContext {
-  AlphaTraceContext alpha;
+  KernelTraceContext query;
   Ctx* self;
   uint key;
   AlphaPassed passed;
@@ -56,17 +56,79 @@ static void bodyFilter(const RTCFilterFunctionNArguments* args) {
   if (context->self->traceIsNextBody(context->body, hit, context->key)) context->body = hit;
 }
 
+// Returns whether the filter of a query has a say about hits on an instance.
+static bool shapeAsksFilter(const Ctx* self, const Instance& inst) {
+  const bool mayPass = RL_HAS(RL_FEATURE_ALPHA) && (inst.flags & RL_INSTANCE_ALPHA) != 0u;
+  return mayPass || (RL_HAS(RL_FEATURE_VOLUME) && self->gScene.bodiesMeet != 0u &&
+                     inst.flags >> RL_INSTANCE_RANK_SHIFT != 0u);
+}
+
+// Finds the first point of a shape on a ray that the filter of the query accepts.
+template <class Arguments>
+static bool shapeMeets(const Arguments& args, const RTCRay& embreeRay, Hit& hit) {
+  const auto* context = reinterpret_cast<const TraceContext*>(args.context);
+  Ctx* self = context->self;
+  hit.instance = args.geomID;
+  const Instance inst = self->recordInstance(hit.instance);
+  const Geometry geometry = self->recordGeometry(inst.geometry);
+  Ray ray{vec3(embreeRay.org_x, embreeRay.org_y, embreeRay.org_z), embreeRay.tnear,
+          vec3(embreeRay.dir_x, embreeRay.dir_y, embreeRay.dir_z), embreeRay.tfar};
+  while (self->shapeTrace(inst, geometry, ray, hit)) {
+    if (!shapeAsksFilter(self, inst)) return true;
+    RTCHit met{};
+    met.u = hit.bary.x;
+    met.v = hit.bary.y;
+    met.primID = hit.primitive;
+    met.geomID = args.geomID;
+    met.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    int valid = -1;
+    RTCFilterFunctionNArguments filter{};
+    filter.valid = &valid;
+    filter.context = args.context;
+    filter.hit = reinterpret_cast<RTCHitN*>(&met);
+    filter.N = 1;
+    context->query.filter(&filter);
+    if (valid != 0) return true;
+    ray.tMin = hit.t;
+  }
+  return false;
+}
+
+static void shapeIntersectCallback(const RTCIntersectFunctionNArguments* args) {
+  auto* r = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  Hit hit;
+  if (args->valid[0] == 0 || !shapeMeets(*args, r->ray, hit)) return;
+  r->ray.tfar = hit.t;
+  r->hit.u = hit.bary.x;
+  r->hit.v = hit.bary.y;
+  r->hit.primID = hit.primitive;
+  r->hit.geomID = args->geomID;
+  r->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+static void shapeOccludedCallback(const RTCOccludedFunctionNArguments* args) {
+  auto* r = reinterpret_cast<RTCRay*>(args->ray);
+  Hit hit;
+  if (args->valid[0] == 0 || !shapeMeets(*args, *r, hit)) return;
+  r->tfar = -std::numeric_limits<float>::infinity();
+}
+
 RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
   TraceContext context;
-  embreeInitContext(context.alpha.embree);
+  embreeInitContext(context.query.embree);
+  if (RL_HAS_SHAPES) {
+    context.self = this;
+    context.query.intersectShape = shapeIntersectCallback;
+    context.query.occludedByShape = shapeOccludedCallback;
+  }
   if (RL_HAS(RL_FEATURE_ALPHA | RL_FEATURE_VOLUME)) {
     context.self = this;
     context.key = key;
     context.passed = traceAlphaNone();
-    context.alpha.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
+    context.query.filter = mode == RL_RAY_PATH ? alphaFilterPath : alphaFilterShadow;
     if (RL_HAS(RL_FEATURE_VOLUME) && mode == RL_RAY_BODIES) {
       context.body = traceNoHit();
-      context.alpha.filter = bodyFilter;
+      context.query.filter = bodyFilter;
     }
   }
   RL_COUNT_RAY(mode);
@@ -84,7 +146,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
     r.mask = 0xffffffffu;
     r.id = 0u;
     r.flags = 0u;
-    embreeOccluded(embreeScene, context.alpha.embree, r);
+    embreeOccluded(embreeScene, context.query.embree, r);
     if (r.tfar < 0.0f) return 0.0f;
     if (RL_HAS(RL_FEATURE_ALPHA)) return context.passed.transmittance;
     return 1.0f;
@@ -104,7 +166,7 @@ RL_FN float traceRay(const Ray& ray, uint mode, uint key, Hit& hit) {
   r.ray.flags = 0u;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embreeIntersect(embreeScene, context.alpha.embree, r);
+  embreeIntersect(embreeScene, context.query.embree, r);
   if (RL_HAS(RL_FEATURE_VOLUME) && mode == RL_RAY_BODIES) {
     hit = context.body;
     return 1.0f;

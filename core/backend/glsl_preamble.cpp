@@ -18,7 +18,7 @@ constexpr const char* kText = R"(#version 460
 
 layout(local_size_x = {tile}, local_size_y = {tile}) in;
 const uint kFeatures = {features}u;
-const uint kClosures = {closures}u;
+const uint kKinds = {kinds}u;  // of closures: the low 16 bits; of shapes: the high ones
 
 // Each address leads to one struct: push constants hold 128 bytes on some devices.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer RlSceneRef {{
@@ -116,8 +116,10 @@ void rlWriteUvec4(uint64_t ref, uint i, uvec4 value) {{
 #define RL_GREATER(a, b) max(a, b)
 #endif
 #define RL_HAS(features) ((kFeatures & (features)) != 0u)
-#define RL_HAS_CLOSURES (kClosures != 0u)
-#define RL_HAS_CLOSURE(kind) ((kClosures & (1u << (kind))) != 0u)
+#define RL_HAS_CLOSURES ((kKinds & 0xffffu) != 0u)
+#define RL_HAS_CLOSURE(kind) ((kKinds & (1u << (kind))) != 0u)
+#define RL_HAS_SHAPES ((kKinds & 0xffff0000u) != 0u)
+#define RL_HAS_SHAPE(kind) ((kKinds & (0x10000u << (kind))) != 0u)
 // Health is rare; rays are counted by each thread and added up once by each subgroup.
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
 uint rlRaysPath = 0u;
@@ -145,12 +147,12 @@ void main() {{
 
 std::string glslKernelSource(const GlslKernel& kernel) {
   const uint32_t features = static_cast<uint32_t>(kernel.features);
-  const uint32_t closures = static_cast<uint32_t>(kernel.features >> rl::RL_FEATURE_CLOSURE_SHIFT);
+  const uint32_t kinds = static_cast<uint32_t>(kernel.features >> rl::RL_FEATURE_CLOSURE_SHIFT);
   return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
                      fmt::arg("copies", kGlslCopies), fmt::arg("extensions", kernel.extensions),
                      fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""),
-                     fmt::arg("features", features), fmt::arg("closures", closures));
+                     fmt::arg("features", features), fmt::arg("kinds", kinds));
 }
 
 }  // namespace restlab

@@ -61,15 +61,20 @@ class VulkanBackend final : public Backend {
         memory_(*context_->memory),
         buffers_(context_->memory) {
     const bool hasQuery = device_.info().hasRayQuery;
+    const bool hasShapes = (scene->features() & rl::RL_FEATURE_SHAPES) != 0;
     rayTracing_ = options.rayTracing;
     // Software drivers trace faster by the hierarchy that kernels traverse themselves.
     if (rayTracing_.empty())
-      rayTracing_ = hasQuery && device_.info().kind != "cpu" ? "query" : "bvh";
+      rayTracing_ = hasQuery && device_.info().kind != "cpu" && !hasShapes ? "query" : "bvh";
     if (rayTracing_ != "bvh" && rayTracing_ != "query") {
       failUsage(
           fmt::format("--ray-tracing {}: the Vulkan backend knows bvh and query", rayTracing_));
     }
     rays_ = rayTracing_ == "query" ? SceneRays::query : SceneRays::bvh;
+    if (rays_ == SceneRays::query && hasShapes)
+      failUsage(
+          "--ray-tracing query: ray queries meet triangles alone, and the scene has shapes; "
+          "--ray-tracing bvh works");
     if (rays_ == SceneRays::query && !hasQuery) {
       throw Error(ExitCode::deviceUnavailable,
                   fmt::format("--ray-tracing query: {} has no ray queries; --ray-tracing bvh works",

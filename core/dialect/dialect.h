@@ -130,6 +130,9 @@ inline void markAt(uint* data, std::size_t i) {
 #define RL_HAS_CLOSURES RL_HAS(::rl::RL_FEATURE_CLOSURES)
 #define RL_HAS_CLOSURE(kind) \
   RL_HAS(::rl::FeatureMask{1} << (::rl::RL_FEATURE_CLOSURE_SHIFT + (kind)))
+// Kinds of shapes, likewise.
+#define RL_HAS_SHAPES RL_HAS(::rl::RL_FEATURE_SHAPES)
+#define RL_HAS_SHAPE(kind) RL_HAS(::rl::FeatureMask{1} << (::rl::RL_FEATURE_SHAPE_SHIFT + (kind)))
 #define RL_STATIC_ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes), #T " layout changed")
 
 #else  // GLSL 4.60

@@ -36,7 +36,8 @@ const FeatureMask RL_FEATURE_DISPERSION = 4194304u;
 const FeatureMask RL_FEATURE_LAYERS = 0x7e0000u;
 // From bit 33 on: RL_FEATURE_CLOSURE_*, a kind of closure each. They, RL_FEATURE_CLOSURES (all of
 // them), RL_FEATURE_GLTF and RL_FEATURE_ALL are made of closures.list. Kernels ask for kinds by
-// RL_HAS_CLOSURE: on the GPU they have a word of their own.
+// RL_HAS_CLOSURE: on the GPU they have a word of their own. From bit 49 on: RL_FEATURE_SHAPE_*, a
+// kind of shape each, of shapes.list (RL_FEATURE_SHAPES, RL_HAS_SHAPE).
 
 RL_NAMESPACE_END
 

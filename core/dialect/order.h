@@ -9,6 +9,7 @@
 #include "core/dialect/sampling.h"
 #include "core/shading/bsdf.h"
 #include "core/geometry/surface.h"
+#include "core/geometry/shape.h"
 #include "core/geometry/material_point.h"
 #include "core/shading/light.h"
 #include "core/geometry/trace_bvh.h"

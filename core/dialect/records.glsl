@@ -29,6 +29,8 @@ RL_FN Geometry recordGeometry(uint index) {
   g.uvOffset[1] = q1.w;
   g.uvOffset[2] = q2.x;
   g.uvOffset[3] = q2.y;
+  g.shape = q2.z;
+  g.firstShapeWord = q2.w;
   return g;
 }
 

@@ -49,7 +49,7 @@ struct AlphaPassed {
   uint edges[4];  // hashes of the last edges and corners; 0: none
 };
 
-// One glTF mesh primitive: triangles [firstTriangle, +triangleCount) index vertices from
+// One glTF mesh primitive or a shape: triangles [firstTriangle, +triangleCount) index vertices from
 // firstVertex. An attribute offset of RL_INVALID means the attribute is absent.
 struct Geometry {
   uint firstTriangle;
@@ -59,8 +59,8 @@ struct Geometry {
   uint tangentOffset;
   uint colorOffset;
   uint uvOffset[4];
-  uint padding0;
-  uint padding1;
+  uint shape;           // RL_SHAPE_*; not RL_SHAPE_TRIANGLES: it has no triangles and attributes
+  uint firstShapeWord;  // of its parameters, in SceneData::shapeWords
 };
 RL_STATIC_ASSERT_SIZE(Geometry, 48);
 
@@ -163,24 +163,25 @@ struct Texture {
 RL_STATIC_ASSERT_SIZE(Texture, 64);
 
 // Kinds of entries in the light table.
-const uint RL_LIGHT_TRIANGLE = 0u;
+const uint RL_LIGHT_AREA = 0u;  // a triangle, or a shape (RL_LIGHT_SHAPE)
 const uint RL_LIGHT_POINT = 1u;
 const uint RL_LIGHT_SPOT = 2u;
 const uint RL_LIGHT_DIRECTIONAL = 3u;
 const uint RL_LIGHT_ENVIRONMENT = 4u;
 
 const uint RL_LIGHT_FLIPPED =
-    2u;  // Light::flags: a mirrored instance, the normal is -cross(e1, e2)
+    2u;                          // Light::flags: a mirrored instance, the normal is -cross(e1, e2)
+const uint RL_LIGHT_SHAPE = 4u;  // Light::flags: the whole shape of an instance
 
 struct Light {
   vec3 p0;  // triangle corner, or position (world)
   uint kind;
-  vec3 e1;            // triangle edge, or direction of light travel (unit)
-  float pmf;          // probability of being selected
-  vec3 e2;            // triangle edge; spot: angle scale and offset; point: attenuation
+  vec3 e1;    // triangle edge; of a shape: half of its box; or direction of light travel (unit)
+  float pmf;  // probability of being selected
+  vec3 e2;    // triangle edge; spot: angle scale and offset; point: attenuation
   float areaInverse;  // 1/m^2 of a triangle
   vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
-  uint instance;      // triangles only
+  uint instance;      // triangles and shapes only
   uint primitive;
   uint flags;       // RL_MATERIAL_DOUBLE_SIDED, RL_LIGHT_FLIPPED
   float magnitude;  // metres; largest coordinate of the corners and within their transform
@@ -214,7 +215,7 @@ RL_STATIC_ASSERT_SIZE(AliasEntry, 12);
 // read as uvec4s. A child is the record of a node, RL_INVALID (none), or one of:
 const uint RL_BVH_LEAF = 0x40000000u;      // count << 26 | record of its first triangle
 const uint RL_BVH_INSTANCE = 0x80000000u;  // | number of the instance
-const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two
+const uint RL_BVH_KIND = 0xc0000000u;      // mask of the two; both: an instance of a shape
 const uint RL_BVH_LEAF_COUNT_SHIFT = 26u;
 const uint RL_BVH_LEAF_FIRST = 0x03ffffffu;  // mask
 const uint RL_BVH_RECORD_UVEC4S = 4u;        // per node or triangle
@@ -278,6 +279,7 @@ struct SceneData {
   // A value each: three floats and the texture that they are multiplied with (RL_INVALID: none; the
   // channel of a number in the upper two bits).
   Uvec4Ref closureParameters;
+  Uvec4Ref shapeWords;  // parameters of shapes, as their files say
   // Two by rank: extinction (m^-1) and index of refraction; scattering (m^-1) and the mean cosine
   // of its angles. Rank 0 is air.
   Vec4Ref bodies;

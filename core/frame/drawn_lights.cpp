@@ -25,9 +25,8 @@ DrawnLights drawnLights(const CompiledScene& scene, const std::vector<uint32_t>&
       shines |= lights[end].pmf > 0.0f;
       isDrawn |= drawn.at(end) != 0;
       ++end;
-    } while (end < scene.lightRecords() && lights[i].kind == rl::RL_LIGHT_TRIANGLE &&
-             lights[end].kind == rl::RL_LIGHT_TRIANGLE &&
-             lights[end].instance == lights[i].instance);
+    } while (end < scene.lightRecords() && lights[i].kind == rl::RL_LIGHT_AREA &&
+             lights[end].kind == rl::RL_LIGHT_AREA && lights[end].instance == lights[i].instance);
     if (shines) ++result.lights;
     if (shines && !isDrawn) result.undrawn.push_back(scene.lightName(i));
     i = end;

@@ -4,12 +4,13 @@
 
 #include "core/dialect/features.h"
 #include "core/scene/closure_info.h"
+#include "core/scene/shapes/shape_info.h"
 
 namespace restlab {
 
 namespace {
 
-// Kinds of closures follow.
+// Kinds of closures and shapes follow.
 const std::array<const char*, 23> kFeatureNames = {"area_lights",
                                                    "punctual_lights",
                                                    "environment",
@@ -35,7 +36,7 @@ const std::array<const char*, 23> kFeatureNames = {"area_lights",
                                                    "dispersion"};
 
 static_assert(((rl::FeatureMask{1} << kFeatureNames.size()) - 1u) ==
-              (rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES));
+              (rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_SHAPES)));
 
 }  // namespace
 
@@ -48,6 +49,7 @@ std::string featureNames(rl::FeatureMask mask) {
   };
   for (size_t i = 0; i < kFeatureNames.size(); ++i) add(rl::FeatureMask{1} << i, kFeatureNames[i]);
   for (const ClosureInfo& closure : closureRegistry()) add(closure.feature, closure.name);
+  for (const ShapeInfo& shape : shapeRegistry()) add(shape.feature, shape.name);
   return text.empty() ? "none" : text;
 }
 

@@ -1,6 +1,7 @@
 // Parameters of a material at a point.
 
 RL_FN vec2 surfaceUv(RL_IN(Geometry) geometry, RL_IN(uvec3) corners, RL_IN(vec2) bary, uint uvSet) {
+  if (RL_HAS_SHAPES && geometry.shape != RL_SHAPE_TRIANGLES) return bary;
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec2(0.0f, 0.0f);
   vec2 a = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);

@@ -11,8 +11,8 @@ RL_NAMESPACE_BEGIN
 struct MaterialPoint {
   uint firstParameter;  // in SceneData::closureParameters
   Geometry geometry;
-  uvec3 corners;
-  vec2 bary;
+  uvec3 corners;  // of a triangle, or shapeCorners()
+  vec2 bary;      // on a triangle, or the texture coordinates of a shape
 };
 
 RL_NAMESPACE_END

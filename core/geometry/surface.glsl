@@ -42,16 +42,49 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
   return t;
 }
 
+RL_PROTO(bool shapeIs(RL_IN(Geometry) geometry))
+RL_PROTO(ShapePointW shapePointW(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
+                                 RL_IN(SurfaceId) id))
+RL_PROTO(uvec3 shapeCorners(RL_IN(ShapePointW) p))
+
+// Index in the light table of a part of an emitting instance: a triangle, or its whole shape.
+RL_FN uint surfaceLight(RL_IN(Instance) inst, bool isShape, uint primitive) {
+  if (inst.firstLight == RL_INVALID) return RL_INVALID;
+  return isShape ? inst.firstLight : inst.firstLight + primitive;
+}
+
+// Where the parameters of a material are read; the caller sets firstParameter.
+RL_FN MaterialPoint surfaceMaterialPoint(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
+                                         uint instance, uint primitive, RL_IN(vec2) bary) {
+  MaterialPoint at;
+  at.firstParameter = 0u;
+  at.geometry = geometry;
+  if (RL_HAS_SHAPES && shapeIs(geometry)) {
+    SurfaceId id;
+    id.instance = instance;
+    id.primitive = primitive;
+    id.bary = bary;
+    ShapePointW shape = shapePointW(inst, geometry, id);
+    at.corners = shapeCorners(shape);
+    at.bary = shape.uv;
+    return at;
+  }
+  at.corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + primitive);
+  at.bary = bary;
+  return at;
+}
+
 // Coverage of a hit: 1 opaque, 0 a hole.
 RL_FN_OUTLINE float surfaceAlpha(RL_IN(Hit) hit) {
   Instance inst = recordInstance(hit.instance);
   Material material = recordMaterial(inst.material);
   if ((material.flags & (RL_MATERIAL_ALPHA_MASK | RL_MATERIAL_ALPHA_BLEND)) == 0u) return 1.0f;
   Geometry geometry = recordGeometry(inst.geometry);
-  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
+  MaterialPoint at = surfaceMaterialPoint(inst, geometry, hit.instance, hit.primitive, hit.bary);
+  uvec3 corners = at.corners;
   float alpha = material.alpha;
   if (RL_HAS(RL_FEATURE_TEXTURES)) {
-    vec4 texel = surfaceSlot(material, RL_TEX_BASE_COLOR, geometry, corners, hit.bary);
+    vec4 texel = surfaceSlot(material, RL_TEX_BASE_COLOR, geometry, corners, at.bary);
     alpha *= texel.w;
   }
   if (RL_HAS(RL_FEATURE_VERTEX_COLORS) && geometry.colorOffset != RL_INVALID) {
@@ -74,6 +107,10 @@ RL_PROTO(void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material,
 RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
                                 uint uvSet, RL_OUT(float) handedness) {
   handedness = 1.0f;
+  if (RL_HAS_SHAPES && geometry.shape != RL_SHAPE_TRIANGLES) {
+    handedness = corners.x != 0u ? -1.0f : 1.0f;
+    return t.e1;
+  }
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec3(0.0f, 0.0f, 0.0f);
   vec2 uv0 = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);
@@ -150,14 +187,6 @@ RL_FN vec2 surfaceInnerBary(RL_IN(TriangleW) t, float area2, float posError, RL_
   return inner * (1.0f / (max(b0, least) + inner.x + inner.y));
 }
 
-RL_FN SurfaceId surfaceIdNone() {
-  SurfaceId id;
-  id.instance = RL_INVALID;
-  id.primitive = 0u;
-  id.bary = vec2(0.0f, 0.0f);
-  return id;
-}
-
 RL_FN Surface surfaceNone() {
   vec3 zero = vec3(0.0f, 0.0f, 0.0f);
   Surface s;
@@ -192,10 +221,20 @@ RL_FN SurfacePoint surfacePointOf(RL_IN(TriangleW) t, RL_IN(Instance) inst, RL_I
   return p;
 }
 
+RL_FN SurfacePoint surfacePointOfShape(RL_IN(ShapePointW) shape) {
+  SurfacePoint p;
+  p.posError = RL_HIT_ERROR * shape.tangents.magnitude;
+  p.posW = shape.tangents.p0;
+  p.normalW = shape.normalW;
+  return p;
+}
+
 // The point that an id names.
 RL_FN SurfacePoint surfacePointAt(RL_IN(SurfaceId) id) {
   Instance inst = recordInstance(id.instance);
   Geometry geometry = recordGeometry(inst.geometry);
+  if (RL_HAS_SHAPES && shapeIs(geometry))
+    return surfacePointOfShape(shapePointW(inst, geometry, id));
   uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + id.primitive);
   return surfacePointOf(surfaceTriangle(inst, geometry, corners), inst, id.bary,
                         vec3(0.0f, 0.0f, 1.0f));
@@ -208,14 +247,27 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   Instance inst = recordInstance(hit.instance);
   Geometry geometry = recordGeometry(inst.geometry);
   Material material = recordMaterial(inst.material);
-  uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
-  TriangleW t = surfaceTriangle(inst, geometry, corners);
   s.id.instance = hit.instance;
   s.id.primitive = hit.primitive;
   s.id.bary = hit.bary;
   s.wo = -rayDir;
   s.contrast = contrast;
-  SurfacePoint point = surfacePointOf(t, inst, hit.bary, s.wo);
+  bool isShape = RL_HAS_SHAPES && shapeIs(geometry);
+  uvec3 corners;
+  TriangleW t;
+  SurfacePoint point;
+  vec2 bary = hit.bary;
+  if (isShape) {
+    ShapePointW shape = shapePointW(inst, geometry, s.id);
+    corners = shapeCorners(shape);
+    t = shape.tangents;
+    point = surfacePointOfShape(shape);
+    bary = shape.uv;
+  } else {
+    corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
+    t = surfaceTriangle(inst, geometry, corners);
+    point = surfacePointOf(t, inst, bary, s.wo);
+  }
   s.posError = point.posError;
   s.posW = point.posW;
   vec3 nGeo = point.normalW;
@@ -225,7 +277,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     vec3 a = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.x);
     vec3 b = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.y);
     vec3 c = RL_SCENE_VEC3(gScene.normals, geometry.normalOffset + corners.z);
-    vec3 n = a + hit.bary.x * (b - a) + hit.bary.y * (c - a);
+    vec3 n = a + bary.x * (b - a) + bary.y * (c - a);
     if (RL_HAS(RL_FEATURE_INSTANCES) && (inst.flags & RL_INSTANCE_IDENTITY) == 0u) {
       n = surfaceToWorldNormal(inst, n);
     }
@@ -234,7 +286,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   }
   vec3 nVertex = nShade;
   if (RL_HAS(RL_FEATURE_NORMAL_MAPS) && material.textures[RL_TEX_NORMAL] != RL_INVALID) {
-    nShade = surfaceNormalMapped(inst, geometry, material, corners, hit.bary, t, nShade);
+    nShade = surfaceNormalMapped(inst, geometry, material, corners, bary, t, nShade);
   }
   s.isFront = isFront ? 1u : 0u;
   s.nGeoW = isFront ? nGeo : -nGeo;
@@ -248,10 +300,10 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   at.firstParameter = material.firstParameter;
   at.geometry = geometry;
   at.corners = corners;
-  at.bary = hit.bary;
+  at.bary = bary;
   materialTexture(material, at);
 
-  s.light = inst.firstLight == RL_INVALID ? RL_INVALID : inst.firstLight + hit.primitive;
+  s.light = surfaceLight(inst, isShape, hit.primitive);
   bool emits = isFront || (material.flags & RL_MATERIAL_DOUBLE_SIDED) != 0u;
   s.emission = emits ? material.emission : vec3(0.0f, 0.0f, 0.0f);
   if ((material.flags & RL_MATERIAL_UNLIT) != 0u) s.emission = material.baseColor;
@@ -262,7 +314,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
     if ((material.flags & (RL_MATERIAL_UNLIT | RL_MATERIAL_BLACK)) != 0u) return s;
     s.bsdf.closure = material.closure;
     if ((material.flags & RL_MATERIAL_ANISOTROPIC) != 0u)
-      s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, hit.bary, t, s.nShadeW);
+      s.bsdf.tangent = surfaceTangentAngle(inst, geometry, corners, bary, t, s.nShadeW);
     if (RL_HAS_CLOSURE(RL_CLOSURE_MIXTURE) && mixtureIs(s.bsdf)) {
       mixtureLoad(s.bsdf, at, hit.instance, hit.primitive);
       return s;

@@ -39,6 +39,9 @@ RL_FN uint traceCornerBits(RL_IN(Geometry) geometry, uint corner) {
 // hit lies on. Triangles that share an edge or corner are all hit there, and count as one surface.
 // isShared: 1 if the hit is on an edge or corner.
 RL_FN uint traceAlphaPart(RL_IN(Hit) hit, RL_OUT(uint) isShared) {
+  isShared = 0u;
+  if (RL_HAS_SHAPES && shapeIs(recordGeometry(recordInstance(hit.instance).geometry)))
+    return hit.primitive;
   float b0 = 1.0f - hit.bary.x - hit.bary.y;
   bool on0 = !(b0 > RL_EDGE_BARY);
   bool on1 = !(hit.bary.x > RL_EDGE_BARY);

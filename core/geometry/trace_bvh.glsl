@@ -156,9 +156,13 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
   uint floorOfInstance = 0u;   // stack height at which the instance is left
   uint height = 0u;
   uint current = 0u;
+  float fromShape = -3.0e38f;  // a shape is searched beyond this
   BvhStack stack;
   for (;;) {
     bool pops = true;
+    bool isMet = false;  // `cand` is a hit, to be accepted or not
+    Hit cand = hit;
+    bool asks = false;  // whether cand may be transparent
     uint kind = current & RL_BVH_KIND;
     // Load nodes and triangles by one set of instructions: divergent lanes pay for both branches
     // below, but only once for this load.
@@ -197,35 +201,19 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
         current = current + 1u - (1u << RL_BVH_LEAF_COUNT_SHIFT);
         pops = false;
       }
-      Hit cand = hit;
-      if (bvhTriangle(r, record, ray.tMin, nearest, cand)) {
-        cand.instance = instance == RL_INVALID ? record.q2.z : instance;
-        cand.primitive = record.q2.w;
-        float alpha = 1.0f;
-        if (RL_HAS(RL_FEATURE_ALPHA)) {
-          bool asks = instance == RL_INVALID ? record.q2.y != 0u : isTransparent;
-          if (asks) alpha = surfaceAlpha(cand);
-        }
-        bool accepts = true;
-        if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u && mode != RL_RAY_PATH) {
-          if (mode == RL_RAY_BODIES) {
-            if (traceIsNextBody(hit, cand, key)) hit = cand;
-            accepts = false;
-          } else if (mediaPasses(key, cand)) {
-            accepts = false;
-          }
-          if (!accepts) alpha = 1.0f;
-        }
-        if (RL_HAS(RL_FEATURE_ALPHA) && alpha < 1.0f) {
-          accepts = mode == RL_RAY_PATH && traceAlphaAccepts(key, cand, alpha);
-          if (!accepts) traceAlphaPass(passed, cand, alpha);
-        }
-        if (accepts) {
-          hit = cand;
-          nearest = cand.t;
-          if (mode == RL_RAY_SHADOW) return 0.0f;
-        }
-      }
+      isMet = bvhTriangle(r, record, ray.tMin, nearest, cand);
+      cand.instance = instance == RL_INVALID ? record.q2.z : instance;
+      cand.primitive = record.q2.w;
+      asks = instance == RL_INVALID ? record.q2.y != 0u : isTransparent;
+    } else if (RL_HAS_SHAPES && kind == RL_BVH_KIND && current != RL_INVALID) {
+      cand.instance = current & ~RL_BVH_KIND;
+      Instance inst = recordInstance(cand.instance);
+      Ray part = ray;
+      part.tMin = max(ray.tMin, fromShape);
+      part.tMax = nearest;
+      isMet = shapeTrace(inst, recordGeometry(inst.geometry), part, cand);
+      asks = (inst.flags & RL_INSTANCE_ALPHA) != 0u;
+      fromShape = -3.0e38f;
     } else if (RL_HAS(RL_FEATURE_INSTANCES) && kind == RL_BVH_INSTANCE) {
       instance = current & ~RL_BVH_KIND;
       Instance inst = recordInstance(instance);
@@ -239,6 +227,33 @@ RL_FN float traceRay(RL_IN(Ray) ray, uint mode, uint key, RL_OUT(Hit) hit) {
                       dot(inst.worldToObjectRow2, d)));
       current = RL_SCENE_UINT(gScene.bvhRoots, inst.geometry);
       pops = false;
+    }
+    if (isMet) {
+      float alpha = 1.0f;
+      if (RL_HAS(RL_FEATURE_ALPHA) && asks) alpha = surfaceAlpha(cand);
+      bool accepts = true;
+      if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u && mode != RL_RAY_PATH) {
+        if (mode == RL_RAY_BODIES) {
+          if (traceIsNextBody(hit, cand, key)) hit = cand;
+          accepts = false;
+        } else if (mediaPasses(key, cand)) {
+          accepts = false;
+        }
+        if (!accepts) alpha = 1.0f;
+      }
+      if (RL_HAS(RL_FEATURE_ALPHA) && alpha < 1.0f) {
+        accepts = mode == RL_RAY_PATH && traceAlphaAccepts(key, cand, alpha);
+        if (!accepts) traceAlphaPass(passed, cand, alpha);
+      }
+      if (accepts) {
+        hit = cand;
+        nearest = cand.t;
+        if (mode == RL_RAY_SHADOW) return 0.0f;
+      } else if (RL_HAS_SHAPES && kind == RL_BVH_KIND) {
+        // The ray goes on through the same shape.
+        fromShape = cand.t;
+        pops = false;
+      }
     }
     if (pops) {
       if (RL_HAS(RL_FEATURE_INSTANCES) && instance != RL_INVALID && height == floorOfInstance) {

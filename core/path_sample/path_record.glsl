@@ -221,7 +221,7 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
     p.alphaTransmittanceX1 = walk.passed;
     float cosLight = abs(dot(s.nGeoW, walk.ray.dir));
     float geometry = cosLight / (hit.t * hit.t);
-    p.found.kind = RL_LIGHT_TRIANGLE;
+    p.found.kind = RL_LIGHT_AREA;
     p.found.id = s.id;
     p.found.record = s.light;
     p.found.point = s.posW;

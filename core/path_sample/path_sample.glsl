@@ -50,7 +50,7 @@ RL_FN PathSample pathOfLight(RL_IN(LightSample) light, uint film) {
   p.key = 0u;
   if (light.kind == RL_LIGHT_ENVIRONMENT) {
     p.wi = pathPackedWi(light.point);
-  } else if (light.kind != RL_LIGHT_TRIANGLE) {
+  } else if (light.kind != RL_LIGHT_AREA) {
     p.id.instance = light.record;
   }
   return p;
@@ -61,7 +61,7 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
   bool isLight = pathEndsAtLight(p);
   LightSample end;
   end.id = p.id;
-  end.kind = isLight ? pathLightKind(p) : RL_LIGHT_TRIANGLE;
+  end.kind = isLight ? pathLightKind(p) : RL_LIGHT_AREA;
   end.point = p.wi;  // of the environment
   end.normal = vec3(0.0f, 0.0f, 0.0f);
   end.pdf = 0.0f;
@@ -70,7 +70,7 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
   end.cone = vec2(0.0f, 0.0f);
   end.isTwoSided = isLight ? p.kind & RL_PATH_TWO_SIDED : 0u;
   end.record = RL_INVALID;
-  if (end.kind == RL_LIGHT_TRIANGLE) {
+  if (end.kind == RL_LIGHT_AREA) {
     SurfacePoint at = surfacePointAt(p.id);
     end.point = at.posW;
     end.posError = at.posError;
@@ -79,7 +79,7 @@ RL_FN LightSample pathEnd(RL_IN(PathSample) p) {
     // Surfaces of bodies that touch lie within so much (core/transport/media.glsl).
     if (RL_HAS(RL_FEATURE_VOLUME) && gScene.bodiesMeet != 0u) end.posError *= 3.0f;
   }
-  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && isLight && end.kind != RL_LIGHT_TRIANGLE &&
+  if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && isLight && end.kind != RL_LIGHT_AREA &&
       end.kind != RL_LIGHT_ENVIRONMENT) {
     end.record = p.id.instance;
     Light light = recordLight(end.record);
@@ -117,9 +117,10 @@ RL_FN float pathSmoothWeight(RL_IN(PathSample) p, RL_IN(Surface) x1, RL_IN(Light
   if (c.isDelta) return 1.0f;
   if (pathLightKind(p) == RL_LIGHT_ENVIRONMENT)
     return lightMisWeight(lightPdfOfEnvironment(c.dirW), pdfBsdf);
-  uint record = recordInstance(p.id.instance).firstLight + p.id.primitive;
-  Light light = recordLight(record);
-  float perArea = lightProbability(record, light, lightReceiverAt(x1)) * light.areaInverse;
+  Instance inst = recordInstance(p.id.instance);
+  bool isShape = RL_HAS_SHAPES && shapeIs(recordGeometry(inst.geometry));
+  uint record = surfaceLight(inst, isShape, p.id.primitive);
+  float perArea = lightPdfPerArea(record, p.id, lightReceiverAt(x1));
   return lightMisWeight(perArea * rlSafeDivide(1.0f, c.geometry), pdfBsdf);
 }
 

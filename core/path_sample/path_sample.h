@@ -37,6 +37,9 @@ struct PathSample {
   uint key;   // of the random numbers that it replays
 };
 
+// The first coordinate of a shape has its part (at most 8) and 15 bits.
+const uint RL_DIRECT_PART_SHIFT = 15u;
+const uint RL_DIRECT_PART_GRID = 0x7fffu;
 const uint RL_DIRECT_GRID = 0x3ffffu;  // core/path_sample/direct_sample.glsl: 18 bits a coordinate
 const uint RL_PATH_KIND_MASK = 7u;
 const uint RL_PATH_LIGHT_KIND_SHIFT = 3u;

@@ -14,7 +14,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
 #include "core/frame/integrator.h"
@@ -387,7 +387,7 @@ std::string endOf(of_shifts::Ctx& c, const PathSample& path) {
   const uint light = c.pathLightKind(path);
   const bool isLight = c.pathEndsAtLight(path);
   if (isLight && light == RL_LIGHT_ENVIRONMENT) return "direction " + three(path.wi);
-  if (isLight && light != RL_LIGHT_TRIANGLE) return fmt::format("light {}", path.id.instance);
+  if (isLight && light != RL_LIGHT_AREA) return fmt::format("light {}", path.id.instance);
 #ifdef RL_DIRECT_ONLY
   const std::string triangle = fmt::format("light {}", path.id.instance);
 #else

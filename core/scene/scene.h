@@ -16,6 +16,14 @@
 
 namespace restlab {
 
+struct ShapeInfo;
+
+// A shape of core/scene/shapes/shape_info.h.
+struct ShapeGeometry {
+  const ShapeInfo* info = nullptr;
+  std::vector<float> values;  // one for each of its parameters
+};
+
 // One triangle mesh with one material (a glTF mesh primitive). Attributes are per vertex; empty
 // means absent. Non-finite positions and out-of-range indices are rejected at import.
 struct MeshGeometry {
@@ -26,6 +34,8 @@ struct MeshGeometry {
   std::vector<glm::vec4> colors;    // linear RGBA, multiplies the base colour
   std::array<std::vector<glm::vec2>, rl::RL_MAX_UV_SETS> uvs;
   std::vector<glm::uvec3> triangles;
+  // Not null: rays meet this shape instead, and the triangles only stand in for it.
+  std::shared_ptr<const ShapeGeometry> shape{};
 };
 
 struct MeshInstance {

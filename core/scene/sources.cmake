@@ -22,6 +22,7 @@ target_sources(rl_core PRIVATE
   scene/scene_file/material_kinds.cpp
   scene/scene_file/scattering.cpp
   scene/scene_file/scene_file.cpp
+  scene/scene_file/shapes.cpp
   scene/textures/png_decode.cpp
   scene/textures/texture_range.cpp
   scene/compiled/coarse_vertices.cpp
@@ -29,6 +30,8 @@ target_sources(rl_core PRIVATE
   scene/compiled/scene_origin.cpp
   scene/camera_path/sight.cpp
   scene/compiled/split_triangles.cpp
+  scene/shapes/shape_info.cpp
+  ${RL_SHAPE_HOST_SOURCES}
 )
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
 target_include_directories(rl_core SYSTEM PRIVATE ${SPNG_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})

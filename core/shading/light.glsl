@@ -40,9 +40,15 @@ RL_FN void lightTellDrawn(uint record) {
 
 RL_FN bool lightExists() { return gScene.lightCount != 0u; }
 
-// A point of a light. `bary`: on a triangle; `dirW`: to the environment. The density is per area
-// (triangle), discrete else: that of a direction to the environment is left to the caller.
-RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, RL_IN(vec3) dirW) {
+RL_FN bool lightIsShape(RL_IN(Light) light) {
+  return RL_HAS_SHAPES && light.kind == RL_LIGHT_AREA && (light.flags & RL_LIGHT_SHAPE) != 0u;
+}
+
+// A point of a light. `primitive` and `bary` name it on a surface; `dirW`: to the environment. The
+// density is per area (surfaces), discrete else: that of a direction to the environment and of a
+// point of a shape is left to the caller.
+RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, uint primitive, RL_IN(vec2) bary,
+                             RL_IN(vec3) dirW) {
   LightSample s;
   s.record = record;
   s.kind = light.kind;
@@ -56,21 +62,28 @@ RL_FN LightSample lightPoint(uint record, RL_IN(Light) light, RL_IN(vec2) bary, 
   if (RL_HAS(RL_FEATURE_PUNCTUAL_LIGHTS) && light.kind == RL_LIGHT_POINT) s.normal = light.e2;
   s.isTwoSided = 0u;
   s.id.instance = light.instance;
-  s.id.primitive = light.primitive;
+  s.id.primitive = primitive;
   s.id.bary = bary;
-  if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) {
-    s.point = light.p0 + bary.x * light.e1 + bary.y * light.e2;
-    s.normal = normalize(cross(light.e1, light.e2));
-    if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
-    s.pdf = light.pmf * light.areaInverse;
-    s.posError = RL_HIT_ERROR * light.magnitude;
+  if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_AREA) {
+    if (lightIsShape(light)) {
+      SurfacePoint p = surfacePointAt(s.id);
+      s.point = p.posW;
+      s.normal = p.normalW;
+      s.posError = p.posError;
+    } else {
+      s.point = light.p0 + bary.x * light.e1 + bary.y * light.e2;
+      s.normal = normalize(cross(light.e1, light.e2));
+      if ((light.flags & RL_LIGHT_FLIPPED) != 0u) s.normal = -s.normal;
+      s.pdf = light.pmf * light.areaInverse;
+      s.posError = RL_HIT_ERROR * light.magnitude;
+    }
     s.isTwoSided = light.flags & RL_MATERIAL_DOUBLE_SIDED;
-    if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(light, bary);
+    if (RL_HAS(RL_FEATURE_EMISSIVE_TEXTURES)) s.radiance = s.radiance * lightTexture(s.id);
     if (RL_HAS(RL_FEATURE_ALPHA)) {
       // Path rays meet a partly transparent emitter with probability alpha.
       Hit hit;
       hit.instance = light.instance;
-      hit.primitive = light.primitive;
+      hit.primitive = primitive;
       hit.bary = bary;
       hit.t = 0.0f;
       s.radiance = s.radiance * surfaceAlpha(hit);
@@ -105,12 +118,21 @@ RL_FN_OUTLINE LightSample lightSample(RL_IN(Rng) rng, RL_IN(LightReceiver) recei
   vec2 bary = vec2(rngUnit(uBits), rngUnit(vBits));
   vec3 dirW = vec3(0.0f, 0.0f, 0.0f);
   float density = 1.0f;
-  if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_TRIANGLE) bary = warpTriangle(bary);
+  uint primitive = light.primitive;
+  bool isShape = lightIsShape(light);
+  if (isShape) {
+    SurfaceId id = shapeLightDraw(light.instance, receiver.posW, bary);
+    primitive = id.primitive;
+    bary = id.bary;
+  } else if (RL_HAS(RL_FEATURE_AREA_LIGHTS) && light.kind == RL_LIGHT_AREA) {
+    bary = warpTriangle(bary);
+  }
   if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) {
     uint aliasBits = rngBits(rng, RL_DIM_ENVIRONMENT_ALIAS);
     dirW = environmentDraw(uvec2(uBits, vBits), aliasBits, density);
   }
-  LightSample s = lightPoint(record, light, bary, dirW);
+  LightSample s = lightPoint(record, light, primitive, bary, dirW);
+  if (isShape) s.pdf *= shapeLightDensity(s.id, receiver.posW);
   if (RL_HAS(RL_FEATURE_ENVIRONMENT) && light.kind == RL_LIGHT_ENVIRONMENT) s.pdf *= density;
   return s;
 }
@@ -133,7 +155,7 @@ RL_FN LightConnection lightConnect(RL_IN(LightSample) s, RL_IN(vec3) posW) {
   float d2 = dot(d, d);
   c.distance = sqrt(d2);
   c.dirW = d * rlSafeDivide(1.0f, c.distance);
-  if (s.kind == RL_LIGHT_TRIANGLE) {
+  if (s.kind == RL_LIGHT_AREA) {
     float cosLight = -dot(s.normal, c.dirW);
     if (s.isTwoSided != 0u) cosLight = abs(cosLight);
     if (!(cosLight > 0.0f) || !(d2 > 0.0f)) {
@@ -166,7 +188,7 @@ RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(v
   ray.tMin = 0.0f;
   if (c.distance > 0.0f) {
     vec3 target = s.point;
-    if (s.kind == RL_LIGHT_TRIANGLE) {
+    if (s.kind == RL_LIGHT_AREA) {
       target = surfaceSegmentEnd(s.point, s.normal, s.posError, posError, -c.dirW);
     }
     ray.dir = target - ray.origin;
@@ -178,13 +200,20 @@ RL_FN Ray lightShadowRay(RL_IN(LightSample) s, RL_IN(LightConnection) c, RL_IN(v
   return ray;
 }
 
-// Solid-angle density with which lightSample finds the emissive triangle that a path ray has hit.
-RL_FN float lightPdfOfHit(uint lightIndex, RL_IN(LightReceiver) receiver, RL_IN(vec3) nGeoW,
-                          RL_IN(vec3) dirW, float distance) {
-  Light light = recordLight(lightIndex);
+// Density per area with which lightSample finds a point of a surface that emits.
+RL_FN float lightPdfPerArea(uint record, RL_IN(SurfaceId) id, RL_IN(LightReceiver) receiver) {
+  Light light = recordLight(record);
+  float ofLight = lightProbability(record, light, receiver);
+  if (lightIsShape(light)) return ofLight * shapeLightDensity(id, receiver.posW);
+  return ofLight * light.areaInverse;
+}
+
+// Solid-angle density with which lightSample finds the emitting surface that a path ray has hit.
+RL_FN float lightPdfOfHit(uint record, RL_IN(SurfaceId) id, RL_IN(LightReceiver) receiver,
+                          RL_IN(vec3) nGeoW, RL_IN(vec3) dirW, float distance) {
   float cosLight = abs(dot(nGeoW, dirW));
   if (!(cosLight > 0.0f)) return 0.0f;
-  float perArea = lightProbability(lightIndex, light, receiver) * light.areaInverse;
+  float perArea = lightPdfPerArea(record, id, receiver);
   return perArea * distance * distance / cosLight;
 }
 

@@ -41,11 +41,19 @@ RL_FN uvec4 mediaLeave(RL_IN(uvec4) media, uint rank) {
   return media;
 }
 
-// Returns for a hit: x: cosine between the ray back and the triangle's outside, above 0 from
+// Returns for a hit: x: cosine between the ray back and the surface's outside, above 0 from
 // outside; y: error bound of the position, metres.
 RL_FN vec2 mediaFacing(RL_IN(Hit) hit, RL_IN(vec3) dirW) {
   Instance inst = recordInstance(hit.instance);
   Geometry geometry = recordGeometry(inst.geometry);
+  if (RL_HAS_SHAPES && shapeIs(geometry)) {
+    SurfaceId id;
+    id.instance = hit.instance;
+    id.primitive = hit.primitive;
+    id.bary = hit.bary;
+    ShapePointW shape = shapePointW(inst, geometry, id);
+    return vec2(-dot(shape.normalW, dirW), RL_HIT_ERROR * shape.tangents.magnitude);
+  }
   uvec3 corners = RL_SCENE_UVEC3(gScene.triangles, geometry.firstTriangle + hit.primitive);
   TriangleW t = surfaceTriangle(inst, geometry, corners);
   vec3 area = cross(t.e1, t.e2);

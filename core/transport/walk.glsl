@@ -85,7 +85,8 @@ RL_FN void walkScatter(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk, RL_IN
   walk.ray.dir = draw.wi;
   walk.isScattered = 0u;
   walk.ofMedium = vec3(1.0f, 1.0f, 1.0f);
-  if (RL_HAS(RL_FEATURE_SCATTERING | RL_FEATURE_LIGHT_TREE)) walk.last = lightReceiverAt(s);
+  if (RL_HAS(RL_FEATURE_SCATTERING | RL_FEATURE_LIGHT_TREE) || RL_HAS_SHAPES)
+    walk.last = lightReceiverAt(s);
 }
 
 // Where the ray travels in a medium that scatters: draws whether it collides before `distance`, and
@@ -240,7 +241,7 @@ RL_FN void walkOn(RL_INOUT(RL_WALK_STATE) state, RL_INOUT(Walk) walk) {
     if (!rlIsBlack(s.emission) && walkWants(walk.bounces)) {
       float pdfLight = 0.0f;
       if (walk.pdfBsdf > 0.0f && s.light != RL_INVALID)
-        pdfLight = lightPdfOfHit(s.light, walk.last, s.nGeoW, walk.ray.dir, hit.t);
+        pdfLight = lightPdfOfHit(s.light, s.id, walk.last, s.nGeoW, walk.ray.dir, hit.t);
       onEmission(state, walk, s, hit, pdfLight);
     } else if (RL_HAS(RL_FEATURE_AMBIENT) && rlIsBlack(s.emission) && !isExit &&
                walk.bounces < gFrame.maxBounces && walkWants(walk.bounces + 1u)) {

@@ -315,6 +315,11 @@ void bench(BenchOptions options) {
     configs.insert(configs.begin(), cpu);
   }
 
+  if ((prepared.scene->features() & rl::RL_FEATURE_SHAPES) != 0)
+    failUsage(
+        fmt::format("bench {}: rays alone are measured on triangles, and this scene has "
+                    "shapes; render and run time its frames",
+                    prepared.scene->source().name));
   logInfo("measuring rays alone");
   const RaySets rays = makeRays(prepared, config.width, config.height);
   const EmbreeRates embree = measureEmbree(prepared, rays, config.threads, options.seconds);

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/backend/embree.h"
 #include "experiments/statistics/intervals.h"
 
@@ -49,15 +49,15 @@ RTCRay makeRay(const RayBatch& rays, size_t i) {
 // Accepts every hit: Embree alone sees no textures.
 void acceptHit(const RTCFilterFunctionNArguments*) {}
 
-rl::AlphaTraceContext opaqueContext() {
-  rl::AlphaTraceContext context;
+rl::KernelTraceContext opaqueContext() {
+  rl::KernelTraceContext context;
   rl::embreeInitContext(context.embree);
   context.filter = acceptHit;
   return context;
 }
 
 RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
-  rl::AlphaTraceContext context = opaqueContext();
+  rl::KernelTraceContext context = opaqueContext();
   RTCRayHit query = {};
   query.ray = makeRay(rays, i);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -137,7 +137,7 @@ RayBatch lightRays(const std::vector<HitPoint>& points, const rl::SceneData& sce
       const uint32_t index =
           std::min(uint32_t(unit(random) * float(scene.lightCount)), scene.lightCount - 1);
       const rl::Light& light = scene.lights.data[index];
-      if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+      if (light.kind == rl::RL_LIGHT_AREA) {
         float u = unit(random), v = unit(random);
         if (u + v > 1.0f) {
           u = 1.0f - u;
@@ -214,7 +214,7 @@ EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, in
   rates.incoherent = rate(rays.incoherent.size(), threads, seconds,
                           [&](size_t i) { traceClosest(scene, rays.incoherent, i); });
   rates.shadow = rate(rays.shadow.size(), threads, seconds, [&](size_t i) {
-    rl::AlphaTraceContext context = opaqueContext();
+    rl::KernelTraceContext context = opaqueContext();
     RTCRay ray = makeRay(rays.shadow, i);
     rl::embreeOccluded(scene, context.embree, ray);
   });

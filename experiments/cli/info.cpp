@@ -1,11 +1,13 @@
 // restlab info: prints the contents of a scene, the kernel features it needs, and the memory that
 // each integrator needs.
+#include <map>
 #include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/scene/shapes/shape_info.h"
 #include "core/scene/material_notes.h"
 #include "core/base/error.h"
 #include "core/scene/camera_path/camera_path.h"
@@ -154,6 +156,19 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
   return json;
 }
 
+// How many instances of each kind of shape there are; nothing where all is made of triangles.
+void printShapes(const Scene& scene) {
+  std::map<std::string, size_t> counts;
+  for (const MeshInstance& instance : scene.instances) {
+    const auto& shape = scene.geometries[instance.geometry].shape;
+    if (shape != nullptr) ++counts[shape->info->name];
+  }
+  if (counts.empty()) return;
+  std::vector<std::string> kinds;
+  for (const auto& [name, count] : counts) kinds.push_back(fmt::format("{} {}", count, name));
+  print("shapes       {}\n", fmt::format("{}", fmt::join(kinds, ", ")));
+}
+
 void printScene(const PreparedScene& prepared, const Json& json) {
   const Scene& scene = prepared.scene->source();
   const auto bounds = worldBounds(scene);
@@ -161,6 +176,7 @@ void printScene(const PreparedScene& prepared, const Json& json) {
   print("triangles    {} stored, {} as seen by rays, {} emissive\n",
         prepared.scene->triangleCount(), prepared.scene->instancedTriangleCount(),
         prepared.scene->emissiveTriangleCount());
+  printShapes(scene);
   print("objects      {} meshes, {} instances, {} materials, {} textures\n",
         scene.geometries.size(), scene.instances.size(), scene.materials.size(),
         scene.images.size());

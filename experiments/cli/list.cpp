@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kKinds =
-    "integrators, caches, backends, denoisers, metrics, closures, scenes, or all: "
+    "integrators, caches, backends, denoisers, metrics, closures, shapes, scenes, or all: "
     "docs/reference.md";
 
 struct ListOptions {
@@ -124,13 +124,10 @@ void printDetails(const Json& part) {
 
 void list(const CLI::App& app, const ListOptions& options) {
   if (options.what == "all" && !options.json) return printText(referencePage(app));
-  const std::vector<std::pair<std::string, Json (*)()>> kinds = {{"integrators", integratorsJson},
-                                                                 {"caches", cachesJson},
-                                                                 {"backends", backendsJson},
-                                                                 {"denoisers", denoisersJson},
-                                                                 {"metrics", metricsJson},
-                                                                 {"closures", closuresJson},
-                                                                 {"scenes", scenes}};
+  const std::vector<std::pair<std::string, Json (*)()>> kinds = {
+      {"integrators", integratorsJson}, {"caches", cachesJson},   {"backends", backendsJson},
+      {"denoisers", denoisersJson},     {"metrics", metricsJson}, {"closures", closuresJson},
+      {"shapes", shapesJson},           {"scenes", scenes}};
   if (options.what == "all") {
     Json all = {{"settings", transportSettingsJson()}};
     for (const auto& [name, listed] : kinds) all[name] = listed();

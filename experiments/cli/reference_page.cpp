@@ -225,7 +225,7 @@ std::string referencePage(const CLI::App& app) {
       "says how things work together.\n\n"
       "- [Verbs](#verbs), [settings of light transport](#settings-of-light-transport)\n"
       "- [Integrators](#integrators), [caches](#caches), [denoisers](#denoisers), "
-      "[closures](#closures)\n"
+      "[closures](#closures), [shapes](#shapes)\n"
       "- [Columns of summary.csv](#columns-of-summarycsv), [metrics](#metrics)\n\n"
       "## Verbs\n\nEvery verb has `--help`, `-q` (errors and warnings only) and `-v` (details).\n";
   text += verbsText(app.get_subcommands({}));
@@ -239,6 +239,10 @@ std::string referencePage(const CLI::App& app) {
   text += "\nWhere its library is installed, `restlab list denoisers` has `oidn` as well.\n";
   text += "\n## Closures\n\nKinds of materials, for `kind` in a [scene file](scenes.md).\n";
   for (const Json& closure : closuresJson()) text += closureText(closure);
+  text +=
+      "\n## Shapes\n\nBeside triangles, for `kind` of a `[[shape]]` in a [scene "
+      "file](scenes.md).\n";
+  for (const Json& shape : shapesJson()) text += closureText(shape);
   text +=
       "\n## Columns of summary.csv\n\n`KEY and its ends`: also `KEY_ci_lo` and `KEY_ci_hi`, the "
       "95 % interval.\n";

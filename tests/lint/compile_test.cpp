@@ -53,7 +53,7 @@ CommandResult checkCpp(const std::string& compiler, const std::string& name,
 std::string precompiledHeader(const std::string& compiler) {
   const std::string header = writeUnit(compiler, "kernels", ".h",
                                        "#include \"core/backend/embree.h\"\n"
-                                       "#include \"core/backend/alpha_filter.h\"\n"
+                                       "#include \"core/backend/trace_callbacks.h\"\n"
                                        "#include \"core/backend/cpu_kernel.h\"\n"
                                        "#include \"core/dialect/order.h\"\n")
                                  .string();

@@ -271,8 +271,8 @@ void expectGeneralKernels(const Combination& what) {
   expectParity(what, scenes, kVulkan, kCpuBvh, kSmall);
   if (isOfEveryPass(what)) expectValidFrame(what, "everything", kVulkan);
   expectParity(what, scenes, kVulkan, kCpuEmbree, kSmall);
-  if (what.integrator == "path" && what.denoiser == "none")  // closures are the walker's
-    expectParity(what, {"materials"}, kVulkanSpecialised, kCpuEmbree, kSmall);
+  if (what.integrator == "path" && what.denoiser == "none")  // closures and shapes are the walker's
+    expectParity(what, {"materials", "shapes"}, kVulkanSpecialised, kCpuEmbree, kSmall);
   if (!isOfEveryPass(what)) return;
   for (const char* scene : {"everything", "cornell-box"})
     expectSameBitsByBothReads(what, scene, kVulkan);
@@ -288,6 +288,9 @@ void expectReuse(const Combination& what) {
   std::vector<std::string> scenes = {"cornell-box"};
   if (isUnbiased) scenes.emplace_back("glossy-gallery");
   expectParity(what, scenes, kVulkanSpecialised, kCpuBvh, kSmall);
+  // Shapes as lights, at x1 and at x2.
+  if (isUnbiased && what.cache == "pixel")
+    expectParity(what, {"shapes"}, kVulkanSpecialised, kCpuEmbree, kSmall);
   expectValidFrame(what, "cornell-box", kVulkanSpecialised);
   // Intersectors, reads and histories are those of all methods.
   if (!isUnbiased || what.integrator != bias::kRunsWithAll) return;

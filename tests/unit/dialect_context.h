@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/backend/cpu_kernel.h"
 #include "core/backend/embree.h"
 #include "core/dialect/order.h"

@@ -29,7 +29,7 @@ using Context = rl::direct_sample::Ctx;
 // One reservoir, and a light table of one of each kind that a path can end at.
 struct Store {
   Store() : c{scene, frame, counters, nullptr, buffers, params} {
-    lights[0].kind = rl::RL_LIGHT_TRIANGLE;
+    lights[0].kind = rl::RL_LIGHT_AREA;
     lights[1].kind = rl::RL_LIGHT_SPOT;
     lights[2].kind = rl::RL_LIGHT_ENVIRONMENT;
     scene.lights.data = lights.data();
@@ -91,7 +91,7 @@ TEST(DirectSample, ComesBackFromItsWords) {
   }
   // Half a step at most is lost of a drawn point, and of a direction what that makes of it.
   rl::LightSample drawn{};
-  drawn.kind = rl::RL_LIGHT_TRIANGLE;
+  drawn.kind = rl::RL_LIGHT_AREA;
   drawn.id.bary = {0.3f, 1.0f};
   EXPECT_LE(std::abs(store.c.pathOfLight(drawn, 0).id.bary.x - 0.3f), 0.51f * kStep);
   EXPECT_EQ(store.c.pathOfLight(drawn, 0).id.bary.y, 1.0f);

@@ -298,7 +298,8 @@ void expectRaysAgree(OneLamp& lamp) {
       continue;
     }
     ++compared;
-    const float pdf = d->lightPdfOfHit(surface.light, anyReceiver(), surface.nGeoW, ray.dir, hit.t);
+    const float pdf =
+        d->lightPdfOfHit(surface.light, surface.id, anyReceiver(), surface.nGeoW, ray.dir, hit.t);
     ASSERT_NEAR(pdf / c.pdfSolidAngle, 1.0f, 2e-3f);
   }
   EXPECT_GT(compared, 5000);

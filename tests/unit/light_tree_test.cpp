@@ -20,11 +20,11 @@ rl::Light randomLamp(Inputs& inputs) {
     const float x = inputs.uniform(-4.0f, 4.0f), y = inputs.uniform(-4.0f, 4.0f);
     return glm::vec3(x, y, inputs.uniform(-4.0f, 4.0f));
   };
-  light.kind = std::array{rl::RL_LIGHT_TRIANGLE, rl::RL_LIGHT_TRIANGLE, rl::RL_LIGHT_POINT,
+  light.kind = std::array{rl::RL_LIGHT_AREA, rl::RL_LIGHT_AREA, rl::RL_LIGHT_POINT,
                           rl::RL_LIGHT_SPOT}[inputs.below(4)];
   light.p0 = place();
   light.pmf = inputs.scale(1e-4f, 1.0f);
-  if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+  if (light.kind == rl::RL_LIGHT_AREA) {
     const float size = inputs.scale(0.01f, 2.0f);
     light.e1 = size * inputs.direction();
     light.e2 = size * inputs.direction();
@@ -93,7 +93,7 @@ rl::LightReceiver randomReceiver(Inputs& inputs) {
 // Whether a point of the lamp sends light to the receiver, by a margin beyond rounding.
 bool reaches(const rl::Light& light, const rl::LightReceiver& receiver, Inputs& inputs) {
   glm::dvec3 point(light.p0);
-  if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+  if (light.kind == rl::RL_LIGHT_AREA) {
     glm::dvec2 u(inputs.uniform(), inputs.uniform());
     if (u.x + u.y > 1.0) u = glm::dvec2(1.0) - u;
     point += u.x * glm::dvec3(light.e1) + u.y * glm::dvec3(light.e2);

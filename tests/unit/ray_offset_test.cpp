@@ -217,7 +217,7 @@ TEST(RayOffset, ConvexMeshesDoNotShadowThemselves) {
       ASSERT_TRUE(isInside);
       if (glm::dot(ends[0].nGeoW, ends[1].nGeoW) > 0.9999f) continue;  // both on one plane
       rl::LightSample target{};
-      target.kind = rl::RL_LIGHT_TRIANGLE;
+      target.kind = rl::RL_LIGHT_AREA;
       target.point = ends[1].posW;
       target.normal = ends[1].nGeoW;
       target.posError = ends[1].posError;

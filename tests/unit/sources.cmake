@@ -51,6 +51,7 @@ list(APPEND RL_UNIT_TESTS
   surface_transform_test.cpp
   texture_test.cpp
   drawn_lights_test.cpp
+  shapes_test.cpp
 )
 
 # They set macros for the kernels that they include.

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/scene/shapes/shape_info.h"
+
 namespace restlab::builtin {
 namespace {
 
@@ -46,6 +48,9 @@ void hashGeometry(Hasher& hash, const MeshGeometry& g) {
   hash.array(g.colors);
   for (const auto& uv : g.uvs) hash.array(uv);
   hash.array(g.triangles);
+  if (g.shape == nullptr) return;
+  hash.text(g.shape->info->name);
+  hash.array(g.shape->values);
 }
 
 void hashTextures(Hasher& hash, const Scene& scene) {

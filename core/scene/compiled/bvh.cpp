@@ -178,6 +178,7 @@ class Builder {
     std::vector<uint32_t> placed;  // indices of instances with a transform
     for (uint32_t i = 0; i < in_.instances.size(); ++i) {
       const rl::Instance& inst = in_.instances[i];
+      if (isShape(inst)) placed.push_back(i);
       if (in_.geometries[inst.geometry].triangleCount == 0) continue;
       if ((inst.flags & rl::RL_INSTANCE_IDENTITY) == 0) {
         placed.push_back(i);
@@ -187,7 +188,8 @@ class Builder {
       addTriangles(world, inst.geometry, i, isTransparent);
     }
     std::vector<Child> trees = treeOfTriangles(world);
-    for (const uint32_t i : placed) buildGeometry(in_.instances[i].geometry);
+    for (const uint32_t i : placed)
+      if (!isShape(in_.instances[i])) buildGeometry(in_.instances[i].geometry);
     for (const Child& tree : treeOfInstances(placed)) trees.push_back(tree);
     bvh_.records[0] = std::bit_cast<BvhRecord>(nodeOf(trees));
     return std::move(bvh_);
@@ -195,6 +197,10 @@ class Builder {
 
  private:
   using Triangle = BvhTriangle;
+
+  bool isShape(const rl::Instance& inst) const {
+    return in_.geometries[inst.geometry].shape != rl::RL_SHAPE_TRIANGLES;
+  }
 
   // Returns the number of the next record; throws if `count` more do not fit.
   uint32_t nextRecord(uint32_t count) const {
@@ -301,9 +307,17 @@ class Builder {
 
   std::vector<Child> treeOfInstances(const std::vector<uint32_t>& instances) {
     std::vector<Box> boxes;
-    for (const uint32_t i : instances) boxes.push_back(boxOf(in_.instances[i]));
+    for (const uint32_t i : instances) {
+      if (!isShape(in_.instances[i])) {
+        boxes.push_back(boxOf(in_.instances[i]));
+        continue;
+      }
+      const RTCBounds& b = in_.shapeBoxes[i];
+      boxes.push_back({{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
+    }
     return tree(boxes, 1, nullptr, [&](const BuildNode& leaf) {
-      return rl::RL_BVH_INSTANCE | instances[leaf.items[0]];
+      const uint32_t i = instances[leaf.items[0]];
+      return (isShape(in_.instances[i]) ? rl::RL_BVH_KIND : rl::RL_BVH_INSTANCE) | i;
     });
   }
 

@@ -11,6 +11,7 @@
 #include "core/dialect/types.h"
 
 struct RTCDeviceTy;
+struct RTCBounds;
 
 namespace restlab {
 
@@ -50,6 +51,7 @@ struct BvhInput {
   std::span<const glm::uvec3> triangles;
   std::span<const rl::Geometry> geometries;
   std::span<const rl::Instance> instances;
+  std::span<const RTCBounds> shapeBoxes;  // core/scene/compiled/shape_records.h
 };
 
 // Throws Error (deviceUnavailable) if memory does not suffice, and std::runtime_error if the tree

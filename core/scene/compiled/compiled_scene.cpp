@@ -8,7 +8,7 @@
 #include <cstring>
 #include <mutex>
 
-#include "core/backend/alpha_filter.h"
+#include "core/backend/trace_callbacks.h"
 #include "core/backend/embree.h"
 #include "core/base/error.h"
 #include "core/scene/compiled/black_textures.h"
@@ -20,6 +20,7 @@
 #include "core/scene/compiled/light_table.h"
 #include "core/scene/compiled/light_tree.h"
 #include "core/scene/compiled/material_records.h"
+#include "core/scene/compiled/shape_records.h"
 #include "core/scene/compiled/split_triangles.h"
 #include "core/scene/plate.h"
 
@@ -58,6 +59,8 @@ struct CompiledScene::Impl {
   std::vector<glm::vec2> uvs;
   std::vector<glm::uvec3> triangles;
   std::vector<rl::Geometry> geometries;
+  std::vector<glm::uvec4> shapeWords;
+  std::vector<RTCBounds> shapeBoxes;  // of each instance of a shape, world space
   std::vector<rl::Instance> instances;
   MaterialRecords records;
   LightTable lights;
@@ -147,8 +150,10 @@ void CompiledScene::Impl::flatten() {
 
   std::vector<uint32_t> sharedGeometry(scene.geometries.size(), rl::RL_INVALID);
   for (const MeshInstance& m : scene.instances) {
-    const std::optional<SplitMesh> split =
-        splitHugeTriangles(scene.geometries[m.geometry], m.objectToWorld, sceneOrigin);
+    const ShapeGeometry* shape = scene.geometries[m.geometry].shape.get();
+    std::optional<SplitMesh> split;
+    if (shape == nullptr)
+      split = splitHugeTriangles(scene.geometries[m.geometry], m.objectToWorld, sceneOrigin);
     const MeshGeometry& mesh = split ? split->mesh : scene.geometries[m.geometry];
     glm::dmat4 toWorld = m.objectToWorld;
     toWorld[3] -= glm::dvec4(origin, 0.0);
@@ -157,7 +162,14 @@ void CompiledScene::Impl::flatten() {
     inst.material = m.material;
     inst.firstLight = rl::RL_INVALID;
     const bool shared = uses[m.geometry] > 1 && !split;
-    if (shared) {
+    if (shape != nullptr) {
+      if (sharedGeometry[m.geometry] == rl::RL_INVALID) {
+        sharedGeometry[m.geometry] = static_cast<uint32_t>(geometries.size());
+        geometries.push_back(shapeRecord(*shape, shapeWords));
+        geometries.back().firstVertex = static_cast<uint32_t>(positions.size());
+      }
+      inst.geometry = sharedGeometry[m.geometry];
+    } else if (shared) {
       if (sharedGeometry[m.geometry] == rl::RL_INVALID) {
         sharedGeometry[m.geometry] = static_cast<uint32_t>(geometries.size());
         addGeometry(mesh, nullptr, nullptr);
@@ -181,7 +193,7 @@ void CompiledScene::Impl::flatten() {
     if ((scene.materials[m.material].data.flags & alphaFlags) != 0)
       inst.flags |= rl::RL_INSTANCE_ALPHA;
     inst.flags |= bodies.rank[instances.size()] << rl::RL_INSTANCE_RANK_SHIFT;
-    instancedTriangles += mesh.triangles.size();
+    if (shape == nullptr) instancedTriangles += mesh.triangles.size();
     instances.push_back(inst);
   }
 }
@@ -233,11 +245,18 @@ void CompiledScene::Impl::buildEmbree() {
     const size_t end = g + 1 < geometries.size() ? geometries[g + 1].firstVertex : positions.size();
     return end - geometries[g].firstVertex;
   };
+  shapeBoxes = boxesOfShapes(scene, geometries, instances);
   top = newScene();
   meshScenes.resize(geometries.size(), nullptr);
   for (uint32_t i = 0; i < instances.size(); ++i) {
     const rl::Instance& inst = instances[i];
     const uint32_t g = inst.geometry;
+    if (geometries[g].shape != rl::RL_SHAPE_TRIANGLES) {
+      RTCGeometry geometry = newShape(device, shapeBoxes[i]);
+      rtcAttachGeometryByID(top, geometry, i);
+      rtcReleaseGeometry(geometry);
+      continue;
+    }
     if (geometries[g].triangleCount == 0) continue;
     if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
       RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), asks(inst));
@@ -296,6 +315,7 @@ void CompiledScene::Impl::bindAddresses() {
   data.environmentLight = lights.environmentLight;
   data.environmentRotation = scene.environment ? scene.environment->rotation : 0.0f;
   data.closureParameters.data = records.closureParameters.data();
+  data.shapeWords.data = shapeWords.data();
   data.bodies.data = bodies.media.data();
   data.bodiesMeet = bodies.meet ? 1u : 0u;
   data.ambient = scene.ambient * scene.ambientFactor;
@@ -370,7 +390,7 @@ void CompiledScene::bindLightTree() const {
 
 BvhInput CompiledScene::bvhInput() const {
   const Impl& m = *impl_;
-  return {m.positions, m.triangles, m.geometries, m.instances};
+  return {m.positions, m.triangles, m.geometries, m.instances, m.shapeBoxes};
 }
 
 rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
@@ -401,6 +421,7 @@ rl::SceneData CompiledScene::placedAt(const Place& place, bool withBvh) const {
   move(placed.environment, m.lights.environment.size());
   move(placed.environmentAlias, m.lights.environmentAlias.size());
   move(placed.closureParameters, m.records.closureParameters.size());
+  move(placed.shapeWords, m.shapeWords.size());
   move(placed.bodies, m.bodies.media.size());
   move(placed.ggxAlbedo, m.data.ggxAlbedo.data != nullptr ? ggxAlbedoTable().size() : 0);
   move(placed.bvh, withBvh ? m.bvh.records.size() * rl::RL_BVH_RECORD_UVEC4S : 0);
@@ -416,7 +437,7 @@ std::string CompiledScene::lightName(uint32_t record) const {
   const LightTable& table = impl_->lights;
   const rl::Light& light = table.lights.at(record);
   if (light.kind == rl::RL_LIGHT_ENVIRONMENT) return "environment";
-  if (light.kind == rl::RL_LIGHT_TRIANGLE) return impl_->scene.instances.at(light.instance).name;
+  if (light.kind == rl::RL_LIGHT_AREA) return impl_->scene.instances.at(light.instance).name;
   return impl_->scene.lights.at(table.punctual.at(record - table.firstPunctual)).name;
 }
 size_t CompiledScene::lampCount() const { return impl_->lights.lamps; }
@@ -445,7 +466,7 @@ bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
          isSame(a.triangles, b.triangles) && isSame(a.records.textures, b.records.textures) &&
          isSame(a.records.texels, b.records.texels) &&
          isSame(a.records.closureParameters, b.records.closureParameters) &&
-         isSame(a.bodies.media, b.bodies.media) &&
+         isSame(a.bodies.media, b.bodies.media) && isSame(a.shapeWords, b.shapeWords) &&
          std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
                     isSameInstance) &&
          a.lights.lights.size() == b.lights.lights.size() &&
@@ -474,7 +495,7 @@ size_t CompiledScene::bytes() const {
          of(i.records.closureParameters) + of(i.records.textures) + of(i.records.texels) +
          of(i.records.srgb) + of(i.lights.lights) + of(i.lights.alias) + of(i.lights.environment) +
          of(i.lights.environmentAlias) + of(i.lightTree.nodes) + of(i.lightTree.trails) +
-         of(i.bodies.media);
+         of(i.bodies.media) + of(i.shapeWords);
 }
 
 }  // namespace restlab

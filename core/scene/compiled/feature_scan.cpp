@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/shapes/shape_info.h"
 #include "core/scene/compiled/bodies.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/textures/texture_range.h"
@@ -220,6 +221,10 @@ rl::FeatureMask scanFeatures(const Scene& scene) {
       if (hasTexture(m, rl::RL_TEX_EMISSIVE)) features |= rl::RL_FEATURE_EMISSIVE_TEXTURES;
     }
     if (hasHoles(m, mesh, ranges)) features |= rl::RL_FEATURE_ALPHA;
+    if (mesh.shape != nullptr) {
+      features |= mesh.shape->info->feature;
+      continue;
+    }
     const uint32_t useCount = ++uses[instance.geometry];
     if (useCount == 2) features |= rl::RL_FEATURE_INSTANCES;
     if (useCount == 1) {  // only once per mesh

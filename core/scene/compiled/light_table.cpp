@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/compiled/alias_table.h"
+#include "core/scene/shapes/shape_info.h"
 
 namespace restlab {
 
@@ -142,7 +143,7 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
   for (uint32_t t = 0; t < g.triangleCount; ++t) {
     const glm::uvec3 corners = in.triangles[g.firstTriangle + t];
     rl::Light light{};
-    light.kind = rl::RL_LIGHT_TRIANGLE;
+    light.kind = rl::RL_LIGHT_AREA;
     const glm::vec3 p0 = in.positions[g.firstVertex + corners.x],
                     p1 = in.positions[g.firstVertex + corners.y],
                     p2 = in.positions[g.firstVertex + corners.z];
@@ -170,6 +171,36 @@ size_t addTriangles(const LightTableInput& in, const rl::Instance& inst, uint32_
     if (usable) ++table.emissiveTriangles;
   }
   return zeroArea;
+}
+
+// Appends the shape of an emitting instance with its power; returns whether it has an area.
+bool addShape(const LightTableInput& in, const rl::Instance& inst, uint32_t instanceIndex,
+              LightTable& table, Weights& weights) {
+  const SceneMaterial& material = in.scene.materials[inst.material];
+  const MeshGeometry& standIn = in.scene.geometries[in.scene.instances[instanceIndex].geometry];
+  rl::Light light{};
+  light.kind = rl::RL_LIGHT_AREA;
+  light.flags = rl::RL_LIGHT_SHAPE | (material.data.flags & rl::RL_MATERIAL_DOUBLE_SIDED);
+  const std::array<glm::vec3, 2> box = standIn.shape->info->box(standIn.shape->values);
+  light.p0 = toWorld(inst, 0.5f * (box[0] + box[1]));
+  const glm::vec3 half = 0.5f * (box[1] - box[0]);
+  light.e1 = {glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow0)), half),
+              glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow1)), half),
+              glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow2)), half)};
+  light.radiance = material.data.emission * material.lightFactor;
+  light.instance = instanceIndex;
+  double area = 0.0;
+  for (const glm::uvec3& t : standIn.triangles) {
+    const glm::vec3 p = standIn.positions[t.x];
+    const glm::dvec3 e1(vectorToWorld(inst, standIn.positions[t.y] - p));
+    const glm::dvec3 e2(vectorToWorld(inst, standIn.positions[t.z] - p));
+    area += 0.5 * glm::length(glm::cross(e1, e2));
+  }
+  const bool isTwoSided = (light.flags & rl::RL_MATERIAL_DOUBLE_SIDED) != 0;
+  table.lights.push_back(light);
+  weights.add(kLamps,
+              kPi * area * luminance(glm::dvec3(light.radiance)) * (isTwoSided ? 2.0 : 1.0));
+  return area > 0.0;
 }
 
 rl::Light punctual(const PunctualLight& source, const glm::dvec3& origin) {
@@ -232,7 +263,13 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     if (unlit || !(luminance(glm::dvec3(material.data.emission)) > 0.0)) continue;
     const auto first = static_cast<uint32_t>(table.lights.size());
     const size_t before = table.emissiveTriangles;
-    const size_t zeroArea = addTriangles(in, instances[i], i, table, weights);
+    const bool isShape = in.geometries[instances[i].geometry].shape != rl::RL_SHAPE_TRIANGLES;
+    size_t zeroArea = 0;
+    if (isShape) {
+      if (addShape(in, instances[i], i, table, weights)) ++table.emissiveTriangles;
+    } else {
+      zeroArea = addTriangles(in, instances[i], i, table, weights);
+    }
     if (zeroArea > 0) {
       warnings.push_back(fmt::format(
           "{}: {}: {} of {} emissive triangles have no area and give no light", in.scene.name,

@@ -85,8 +85,15 @@ Bounds boundsOf(const rl::Light& light) {
   const glm::dvec3 p(light.p0);
   b.low = b.high = p;
   b.power = double(light.pmf);
-  if (light.kind == rl::RL_LIGHT_TRIANGLE) {
+  if (light.kind == rl::RL_LIGHT_AREA) {
     const glm::dvec3 e1(light.e1), e2(light.e2);
+    if ((light.flags & rl::RL_LIGHT_SHAPE) != 0) {
+      b.low = p - e1;
+      b.high = p + e1;
+      b.cone.spread = kPi;
+      b.cone.beyond = 0.5 * kPi;
+      return b;
+    }
     for (const glm::dvec3& corner : {p + e1, p + e2}) {
       b.low = glm::min(b.low, corner);
       b.high = glm::max(b.high, corner);
@@ -134,7 +141,7 @@ class Builder {
     for (uint32_t i = 0; i < lights.size(); ++i) {
       const uint32_t kind = lights[i].kind;
       const bool isLamp =
-          kind == rl::RL_LIGHT_TRIANGLE || kind == rl::RL_LIGHT_POINT || kind == rl::RL_LIGHT_SPOT;
+          kind == rl::RL_LIGHT_AREA || kind == rl::RL_LIGHT_POINT || kind == rl::RL_LIGHT_SPOT;
       if (!isLamp || !(lights[i].pmf > 0.0f)) continue;
       order_.push_back(i);
       bounds_.push_back(boundsOf(lights[i]));

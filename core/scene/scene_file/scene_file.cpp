@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/content_hash.h"
+#include "core/scene/scene_file/shapes.h"
 #include "core/scene/textures/daylight.h"
 
 namespace restlab {
@@ -43,8 +44,11 @@ thread_local int Nesting::depth_ = 0;
 // The scene of `base`: a built-in one, or a file relative to this one.
 Scene loadBase(const ConfigTable& table, const fs::path& folder) {
   const std::string base = table.getString("base", "");
-  if (base.empty())
-    table.fail("base", "no 'base': the scene to begin with, a built-in one or a glTF file");
+  if (base.empty() && !table.has("shape"))
+    table.fail("base",
+               "no 'base', the scene to begin with (a built-in one or a glTF file), and no "
+               "[[shape]]");
+  if (base.empty()) return Scene();
   const auto load = [&] {
     if (isBuiltinScene(base)) return makeBuiltinScene(base);
     const auto [file, settings] = splitSceneSettings(base);
@@ -321,6 +325,7 @@ Scene read(const fs::path& file, const std::string& settings) {
                       fmt::format("a second [[material]] is named '{}'", materials[i].name));
     }
   }
+  for (const ConfigTable& shape : table.getTables("shape")) addShape(shape, materials, scene);
   Assignment assignment(scene, materials);
   for (const ConfigTable& assign : table.getTables("assign")) assignment.apply(assign);
   for (const ConfigTable& light : table.getTables("light")) addLight(light, scene);
@@ -328,6 +333,7 @@ Scene read(const fs::path& file, const std::string& settings) {
     scene.cameras = {readCamera(table.getTable("camera"))};
     scene.mainCamera = 0;
   }
+  if (scene.cameras.empty()) scene.cameras = {framingCamera(scene)};
   if (table.has("environment"))
     scene.environment = readEnvironment(table.getTable("environment"), folder);
   if (table.has("background")) {

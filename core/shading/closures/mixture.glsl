@@ -31,9 +31,12 @@ RL_FN_OUTLINE Bsdf mixtureMaterial(RL_IN(Bsdf) b, uint i) {
   MaterialPoint at;
   at.firstParameter = m.firstParameter;
   at.geometry = recordGeometry(inst.geometry);
-  at.corners = RL_SCENE_UVEC3(gScene.triangles,
-                              at.geometry.firstTriangle + unpackHalves(vec2(b.p1.z, b.p1.w)));
   at.bary = vec2(b.p2.x, b.p2.y);
+  // A shape is asked for its texture coordinates alone.
+  at.corners = uvec3(0u, 0u, 0u);
+  if (!RL_HAS_SHAPES || at.geometry.shape == RL_SHAPE_TRIANGLES)
+    at.corners = RL_SCENE_UVEC3(gScene.triangles,
+                                at.geometry.firstTriangle + unpackHalves(vec2(b.p1.z, b.p1.w)));
   if (m.closure == RL_CLOSURE_GLTF) {
     materialTexture(m, at);
     return materialLobes(m, true, 0.0f);

@@ -185,7 +185,7 @@ RL_FN float lightTreeProbability(uint lamp, RL_IN(LightReceiver) receiver) {
 }
 
 RL_FN bool lightIsLamp(uint kind) {
-  return kind == RL_LIGHT_TRIANGLE || kind == RL_LIGHT_POINT || kind == RL_LIGHT_SPOT;
+  return kind == RL_LIGHT_AREA || kind == RL_LIGHT_POINT || kind == RL_LIGHT_SPOT;
 }
 
 RL_FN bool lightTreeIsUsed() {

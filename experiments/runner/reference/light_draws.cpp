@@ -83,7 +83,7 @@ std::vector<DrawnLight> drawnLights(const CompiledScene& scene) {
   uint32_t lastInstance = rl::RL_INVALID;
   for (uint32_t i = 0; i < data.lightCount; ++i) {
     const rl::Light& light = records[i];
-    const bool isTriangle = light.kind == rl::RL_LIGHT_TRIANGLE;
+    const bool isTriangle = light.kind == rl::RL_LIGHT_AREA;
     const double probability =
         double(light.pmf) *
         (isTriangle ? shares.of(scene.source().instances.at(light.instance).material) : 1.0);

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "core/scene/shapes/shape_info.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "core/backend/backend.h"
 #include "core/frame/cache.h"
@@ -110,6 +111,26 @@ Json denoisersJson() {
                    {"summary", missing.summary},
                    {"available", false},
                    {"why_not", missing.whyNot}});
+  }
+  return all;
+}
+
+Json shapesJson() {
+  Json all = Json::array();
+  for (const ShapeInfo& info : shapeRegistry()) {
+    Json parameters = Json::array();
+    for (const ShapeParameter& p : info.parameters) {
+      parameters.push_back({{"name", p.name},
+                            {"default", p.fallback},
+                            {"range", {p.lo, p.hi}},
+                            {"type", "number"},
+                            {"help", p.help}});
+    }
+    all.push_back({{"name", info.name},
+                   {"summary", info.summary},
+                   {"source", ""},
+                   {"breaks", Json::array()},
+                   {"parameters", parameters}});
   }
   return all;
 }

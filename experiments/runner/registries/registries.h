@@ -23,5 +23,7 @@ nlohmann::ordered_json denoisersJson();
 nlohmann::ordered_json metricsJson();
 // Kinds of materials: the closures, and those that the lobes of glTF stand for.
 nlohmann::ordered_json closuresJson();
+// Kinds of shapes beside triangles.
+nlohmann::ordered_json shapesJson();
 
 }  // namespace restlab

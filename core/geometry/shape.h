@@ -1,0 +1,36 @@
+// A surface that is not made of triangles, in a space of its own.
+#ifndef RL_SHAPE_H
+#define RL_SHAPE_H
+
+#ifdef __cplusplus
+#include "core/geometry/surface.h"
+#endif
+
+RL_NAMESPACE_BEGIN
+
+struct Shape {
+  uint kind;       // RL_SHAPE_*
+  uint firstWord;  // of its parameters, in SceneData::shapeWords (uvec4s)
+};
+
+// A point of a shape in its own space.
+struct ShapePoint {
+  vec3 posL;
+  vec3 normalL;  // unit, to the outside
+  vec3 dpdu;     // along the texture's u and v, of any length
+  vec3 dpdv;
+  vec2 uv;      // of textures
+  vec3 extent;  // of each axis: bound of all coordinates in the computation of the point
+};
+
+// A point of a shape in world space: the triangle is its tangent plane.
+struct ShapePointW {
+  TriangleW tangents;  // p0: the point; e1 and e2: its derivatives along the texture's u and v
+  vec3 normalW;        // unit, to the outside
+  vec2 uv;
+  float areaFactor;  // world area over area of the shape's own space
+};
+
+RL_NAMESPACE_END
+
+#endif

@@ -1,0 +1,41 @@
+// Functions that several shapes share.
+
+// A point whose coordinates bound those of its computation. The caller sets the rest.
+RL_FN ShapePoint shapePointOn(RL_IN(vec3) posL, RL_IN(vec3) normalL) {
+  ShapePoint p;
+  p.posL = posL;
+  p.normalL = normalL;
+  p.dpdu = vec3(1.0f, 0.0f, 0.0f);
+  p.dpdv = vec3(0.0f, 1.0f, 0.0f);
+  p.uv = vec2(0.0f, 0.0f);
+  p.extent = vec3(1.0f, 1.0f, 1.0f);
+  return p;
+}
+
+RL_FN ShapePoint shapePointNone() {
+  return shapePointOn(vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 1.0f));
+}
+
+// Place on the circle as a number in [0, 1], without trigonometry: that of its direction on the
+// square |x| + |y| = 1, from x to y.
+RL_FN float shapeDiamond(RL_IN(vec2) at) {
+  float x = at.x * rlSafeDivide(1.0f, abs(at.x) + abs(at.y));
+  float turn = (1.0f - x) * 0.25f;
+  return at.y >= 0.0f ? turn : 1.0f - turn;
+}
+RL_FN vec2 shapeFromDiamond(float turn) {
+  bool isLower = turn > 0.5f;
+  float x = 1.0f - 4.0f * (isLower ? 1.0f - turn : turn);
+  float y = 1.0f - abs(x);
+  return normalize(vec2(x, isLower ? -y : y));
+}
+
+// Angle of a direction (cosine, sine >= 0, of any length), radians in [0, pi].
+RL_FN float shapeAngle(float cosine, float sine) { return atan(sine, cosine); }
+
+// Turn from x to y, in [0, 1).
+RL_FN float shapeTurn(RL_IN(vec2) at) {
+  if (at.x == 0.0f && at.y == 0.0f) return 0.0f;
+  float turn = atan(at.y, at.x) * (0.5f / RL_PI);
+  return turn < 0.0f ? turn + 1.0f : turn;
+}

@@ -1,0 +1,31 @@
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/shapes/shape_info.h"
+
+namespace restlab {
+
+ShapeInfo cylinderShape() {
+  ShapeInfo info;
+  info.summary = "the cylinder of radius 1 about z, from z = 0 to z = 1";
+  info.parameters = {{"ends", 1.0, 0.0, 1.0, "1: closed, 0: the side alone"}};
+  info.isConvex = true;
+  info.isClosed = [](const std::vector<float>& values) { return values[0] > 0.0f; };
+  info.box = [](const std::vector<float>&) {
+    return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f)};
+  };
+  info.standIn = [](const std::vector<float>& values) {
+    MeshGeometry mesh = turnedGrid(64, 1, [](float u, float v) {
+      const double phi = 2.0 * std::numbers::pi * u;
+      return glm::vec3(std::cos(phi), std::sin(phi), v);
+    });
+    if (values[0] > 0.0f) {
+      addDisk(mesh, 0.0f, true, 64);
+      addDisk(mesh, 1.0f, false, 64);
+    }
+    return mesh;
+  };
+  return info;
+}
+
+}  // namespace restlab

@@ -1,0 +1,58 @@
+// Kinds of shapes beside triangles, for the host: what kernels see of them is in
+// core/geometry/shapes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dialect/features.h"
+#include "core/scene/scene.h"
+
+namespace restlab {
+
+struct ShapeParameter {
+  std::string name;
+  double fallback = 0.0, lo = 0.0, hi = 0.0;  // inclusive
+  std::string help;
+};
+
+// One kind of shapeRegistry(). Functions take a value for each parameter, within its range.
+struct ShapeInfo {
+  std::string name;
+  std::string summary;
+  uint32_t kind = rl::RL_SHAPE_TRIANGLES;
+  rl::FeatureMask feature = 0;
+  std::vector<ShapeParameter> parameters;  // words of a kernel in this order, four a uvec4
+  bool isConvex = false;                   // a ray that leaves to the outside never meets it again
+  // Returns whether it has an inside that no ray leaves unseen.
+  std::function<bool(const std::vector<float>& values)> isClosed;
+  // Box around the shape in its own space (low, high).
+  std::function<std::array<glm::vec3, 2>(const std::vector<float>& values)> box;
+  // Triangles near the surface, counter-clockwise seen from its outside: for outlines, areas,
+  // bounds and tests of what is inside.
+  std::function<MeshGeometry(const std::vector<float>& values)> standIn;
+};
+
+// In the order of shapes.list.
+const std::vector<ShapeInfo>& shapeRegistry();
+// nullptr if there is none.
+const ShapeInfo* findShape(const std::string& name);
+
+// A geometry of that shape with the stand-in as its triangles; values as ShapeInfo::parameters.
+MeshGeometry makeShape(const ShapeInfo& info, const std::vector<float>& values,
+                       const std::string& name);
+// Parameters as uvec4s that kernels read.
+std::vector<glm::uvec4> shapeWords(const ShapeGeometry& shape);
+
+// Grid of columns x rows cells over at(u, v), u and v in [0, 1]; counter-clockwise seen from where
+// cross(d/du, d/dv) points. Vertices at u = 1 are those at u = 0.
+MeshGeometry turnedGrid(uint32_t columns, uint32_t rows,
+                        const std::function<glm::vec3(float u, float v)>& at);
+// The unit disk at that height, seen from +z (or -z).
+void addDisk(MeshGeometry& mesh, float z, bool isFromBelow, uint32_t segments);
+
+}  // namespace restlab

@@ -1,0 +1,26 @@
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/shapes/shape_info.h"
+
+namespace restlab {
+
+ShapeInfo sphereShape() {
+  ShapeInfo info;
+  info.summary = "the unit sphere, poles on z";
+  info.isConvex = true;
+  info.isClosed = [](const std::vector<float>&) { return true; };
+  info.box = [](const std::vector<float>&) {
+    return std::array{glm::vec3(-1.0f), glm::vec3(1.0f)};
+  };
+  info.standIn = [](const std::vector<float>&) {
+    return turnedGrid(32, 16, [](float u, float v) {
+      const double phi = 2.0 * std::numbers::pi * u, theta = std::numbers::pi * (1.0 - v);
+      return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::cos(theta));
+    });
+  };
+  return info;
+}
+
+}  // namespace restlab
