@@ -57,9 +57,10 @@ TEST(LoadScene, FileDirectoryAndStem) {
   EXPECT_EQ(loadScene((root / "khronos").string()).name, "box");
   EXPECT_NE(errorOf([&] { loadScene((root / "two").string()); }).find("name one of a.gltf, b.glb"),
             std::string::npos);
-  EXPECT_NE(
-      errorOf([&] { loadScene((root / "none").string()); }).find("no .gltf, .glb or .scene.toml"),
-      std::string::npos);
+  EXPECT_NE(errorOf([&] {
+              loadScene((root / "none").string());
+            }).find("no .gltf, .glb, .scene.toml or .xml"),
+            std::string::npos);
   EXPECT_NE(errorOf([&] { loadScene((root / "rom").string()); }).find("did you mean '"),
             std::string::npos);
 }
