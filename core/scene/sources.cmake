@@ -98,12 +98,15 @@ add_library(rl_scene_files OBJECT
   scene/mitsuba/spectrum.cpp
   scene/mitsuba/textures.cpp
   scene/mitsuba/values.cpp
+  scene/gltf_write/materials.cpp
+  scene/gltf_write/nodes.cpp
+  scene/gltf_write/write.cpp
 )
 target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
                       nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer
                       pugixml::pugixml ZLIB::ZLIB)
 rl_compile_lightly(rl_scene_files)
-rl_compile_together(rl_scene_files 1 gltf builtin mitsuba)
+rl_compile_together(rl_scene_files 1 gltf builtin mitsuba gltf_write)
 # Draco's headers define macros with short names.
 set_property(SOURCE scene/gltf/draco_mesh.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out).
