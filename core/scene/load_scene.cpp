@@ -21,7 +21,7 @@ bool isScene(const fs::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::error_code error;
   return (extension == ".gltf" || extension == ".glb" || isSceneFile(file) ||
-          isMitsubaFile(file)) &&
+          isMitsubaScene(file)) &&
          fs::is_regular_file(file, error);
 }
 

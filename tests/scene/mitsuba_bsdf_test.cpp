@@ -72,6 +72,11 @@ TEST_F(MitsubaBsdf, Conductors) {
   EXPECT_EQ(valueOf(firstMaterial(given), "eta"), 0.1f);
   EXPECT_EQ(valueOf(firstMaterial(given), "k"), 1.95f);
   EXPECT_EQ(valueOf(firstMaterial(given), "alpha"), 0.0f);
+  // A flat spectrum is the same index at every wavelength.
+  const Scene flat = sceneOf(
+      "<bsdf type=\"conductor\"><spectrum name=\"eta\" value=\"300:2, 900:2\"/><rgb name=\"k\" "
+      "value=\"3\"/></bsdf>");
+  EXPECT_NEAR(valueOf(firstMaterial(flat), "eta"), 2.0f, 1e-5f);
   EXPECT_EQ(firstMaterial(sceneOf("<bsdf type=\"conductor\"/>")).data.closure,
             rl::RL_CLOSURE_MIRROR);
   EXPECT_EQ(choiceOf(firstMaterial(sceneOf("<bsdf type=\"conductor\"/>", "0.6.0")), "metal"), 2u)

@@ -133,8 +133,8 @@ Appearance Bsdfs::conductor(Parameters& p, bool isRough) {
         textures_.color(p, "specular_reflectance", glm::dvec3(1.0), Quantity::reflectance));
   if (hasIndex) {
     const double outside = index(p, "ext_eta", "vacuum");
-    const glm::dvec3 eta = p.color("eta", glm::dvec3(0.0), Quantity::radiance) / outside,
-                     k = p.color("k", glm::dvec3(1.0), Quantity::radiance) / outside;
+    const glm::dvec3 eta = p.color("eta", glm::dvec3(0.0), Quantity::index) / outside,
+                     k = p.color("k", glm::dvec3(1.0), Quantity::index) / outside;
     a.set("eta", glm::min(eta, 20.0));
     a.set("k", glm::min(k, 20.0));
     if (glm::max(eta, k) != glm::min(glm::max(eta, k), 20.0)) p.fail("eta", "eta or k is above 20");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <new>
 
 #include "core/base/error.h"
@@ -111,6 +112,14 @@ bool isMitsubaFile(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension == ".xml";
+}
+
+bool isMitsubaScene(const fs::path& file) {
+  if (!isMitsubaFile(file)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(4096, '\0');
+  stream.read(start.data(), std::streamsize(start.size()));
+  return start.find("<scene") != std::string::npos;
 }
 
 Scene loadMitsuba(const fs::path& file, const std::string& settings) {

@@ -10,6 +10,8 @@ namespace restlab {
 
 // Returns whether a path ends in .xml.
 bool isMitsubaFile(const std::filesystem::path& file);
+// Returns whether a file also begins like a scene: other XML may lie in a folder of scenes.
+bool isMitsubaScene(const std::filesystem::path& file);
 
 // Reads an XML scene. settings: "NAME=VALUE&..." as behind the '?' of its name; each is the value
 // of a $NAME, but allow_unknown=1, which draws plugins that are unknown as mid grey. Throws Error

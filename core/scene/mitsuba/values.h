@@ -22,7 +22,7 @@ const std::string& valueOf(const Element& element, const Report& report);
 // <point>, <vector>: x, y, z or value.
 glm::dvec3 vectorOf(const Element& element, const Report& report);
 
-enum class Quantity { reflectance, radiance };
+enum class Quantity { reflectance, radiance, index };
 
 // Returns whether the element is a colour: <rgb>, <srgb>, <spectrum>, <float>, <integer>.
 bool isColor(const Element& element);
