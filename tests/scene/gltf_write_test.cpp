@@ -111,7 +111,7 @@ TEST_F(GltfWrite, TheMitsubaSceneLooksTheSame) {
 }
 
 TEST_F(GltfWrite, BuiltInScenesKeepTheirMaterials) {
-  for (const char* name : {"cornell-box", "door-ajar", "glossy-gallery"}) {
+  for (const char* name : {"cornell-box", "door-ajar", "glossy-gallery", "glass"}) {
     const Scene scene = makeBuiltinScene(name), read = again(scene);
     expectSameTriangles(scene, read);
     expectSameMaterials(scene, read);
