@@ -119,6 +119,29 @@ TEST_F(GltfWrite, BuiltInScenesKeepTheirMaterials) {
   }
 }
 
+TEST_F(GltfWrite, SceneFilesKeepTheirKinds) {
+  for (const char* name : {"candle", "painted-box"}) {
+    const Scene scene =
+        loadScene(std::string(RESTLAB_SOURCE_DIR) + "/experiments/scenes/" + name + ".scene.toml");
+    const Scene read = again(scene);
+    expectSameImage(scene, read);
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+      const glm::vec3 &a = scene.materials[i].sigmaScattering,
+                      &b = read.materials[i].sigmaScattering;
+      EXPECT_NEAR(glm::length(a - b), 0.0f, 1e-5f * glm::length(a)) << scene.materials[i].name;
+      EXPECT_EQ(scene.materials[i].phase, read.materials[i].phase);
+    }
+  }
+  try {
+    again(loadScene(std::string(RESTLAB_SOURCE_DIR) + "/experiments/scenes/materials.scene.toml"));
+    FAIL() << "a table was written";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("has a table, which glTF files do not hold"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // A scene with each way to give a value to a closure.
 TEST_F(GltfWrite, ClosuresAndTheirTextures) {
   const std::string checks =

@@ -110,6 +110,10 @@ TEST_F(MitsubaDocument, DamagedFilesHaveAPlace) {
             "y.xml:1:1: <scene> has no version; version=\"3.0.0\" expected");
   EXPECT_EQ(folder_.error(kGrey, "", "4.0.0"),
             "x.xml:1:1: version '4.0.0' is unknown; 0.4.0 to 3.x.x expected");
+  folder_.write("large.xml", std::string());
+  std::filesystem::resize_file(folder_.path() / "large.xml", (uint64_t(256) << 20) + 1);
+  EXPECT_NE(folder_.error("<include filename=\"large.xml\"/>").find("at most 268435456 expected"),
+            std::string::npos);
   EXPECT_NE(folder_.error("<include filename=\"../a.xml\"/>").find("leaves the scene's folder"),
             std::string::npos);
   EXPECT_NE(folder_.error("<include filename=\"/etc/passwd\"/>").find("leaves the scene's folder"),

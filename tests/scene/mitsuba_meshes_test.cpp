@@ -78,6 +78,9 @@ TEST_F(MitsubaMeshes, NormalsAreMadeTurnedAndLeftOut) {
   // Faces whose normals point to their back turn over: lamps shine where normals point.
   const Scene turned = loadMesh("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n");
   EXPECT_LT(test::worldTriangles(turned).at(0).areaNormal().z, 0.0);
+  const Scene wound = loadMesh("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n",
+                               "<boolean name=\"face_normals\" value=\"true\"/>");
+  EXPECT_GT(test::worldTriangles(wound).at(0).areaNormal().z, 0.0) << "without normals";
 }
 
 TEST_F(MitsubaMeshes, DamagedObj) {
@@ -165,7 +168,7 @@ TEST_F(MitsubaMeshes, DamagedPly) {
 
 // A file of `count` squares, the one of index i at z = i.
 std::string serialized(uint16_t version, uint32_t count, uint64_t claimedVertices = 4,
-                       uint32_t lastIndex = 3) {
+                       uint32_t lastIndex = 3, const std::string& name = "square") {
   std::string file;
   std::vector<uint64_t> offsets;
   const auto put = [](std::string& into, auto value) {
@@ -175,7 +178,7 @@ std::string serialized(uint16_t version, uint32_t count, uint64_t claimedVertice
     offsets.push_back(file.size());
     std::string data;
     put(data, uint32_t(0x1000 | 2));
-    if (version == 4) data += std::string("square\0", 7);
+    if (version == 4) data += name + '\0';
     put(data, claimedVertices);
     put(data, uint64_t(2));
     const float corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -220,6 +223,9 @@ TEST_F(MitsubaMeshes, DamagedSerialized) {
   EXPECT_NE(errorOf("serialized", serialized(4, 1, 5)).find("end early"), std::string::npos);
   EXPECT_NE(errorOf("serialized", serialized(4, 1, 40)).find("end early"), std::string::npos);
   EXPECT_NE(errorOf("serialized", serialized(4, 1, 4, 9)).find("triangle 1 names vertex 9"),
+            std::string::npos);
+  EXPECT_NE(errorOf("serialized", serialized(4, 1, 4, 3, std::string(100000, 'a')))
+                .find("its name has more than 65536 bytes"),
             std::string::npos);
   EXPECT_NE(errorOf("serialized", "abc").find("ends within its header"), std::string::npos);
   std::string damaged = good;

@@ -196,15 +196,17 @@ TEST_F(MitsubaValues, FieldsOfView) {
 
 TEST_F(MitsubaValues, WhatASensorHasBesideIsSaid) {
   const Scene scene = folder_.load(
-      "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+      "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/><boolean "
+      "name=\"hide_emitters\" value=\"true\"/></integrator>"
       "<sensor type=\"thinlens\"><float name=\"fov\" value=\"45\"/><float "
       "name=\"aperture_radius\" value=\"0.1\"/><float name=\"focus_distance\" value=\"3\"/>"
       "<sampler type=\"independent\"/></sensor>" +
       rectangleWith(""));
   EXPECT_TRUE(test::notes(scene, "max_depth 6 is --max-bounces 5"));
   EXPECT_TRUE(test::notes(scene, "--resolution 768x576"));
-  ASSERT_EQ(scene.warnings.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_TRUE(test::warns(scene, "drawn as a pinhole"));
+  EXPECT_TRUE(test::warns(scene, "the camera sees lamps"));
 }
 
 }  // namespace

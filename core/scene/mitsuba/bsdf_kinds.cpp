@@ -214,6 +214,7 @@ Appearance Bsdfs::plastic(Parameters& p, bool isRough) {
       base.factor = base.factor * (1.0 - back) / (1.0 - base.factor * back);
     }
   }
+  note(p, "its layer reflects by Schlick's approximation of Fresnel's term");
   a.set("color", base);
   a.set("ior", eta);
   if (isRough) {

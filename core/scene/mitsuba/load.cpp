@@ -54,6 +54,9 @@ void noteIntegrator(const Element& element, const Context& context) {
       fmt::format("integrator '{}' is not read: --integrator chooses the method", element.type);
   if (depth >= 1) text += fmt::format("; max_depth {} is --max-bounces {}", depth, depth - 1);
   context.report.note("integrator", element.place, text);
+  if (p.boolean("hide_emitters", false))
+    context.report.warn("hidden emitters", element.place,
+                        "hide_emitters is not read: the camera sees lamps and surroundings");
 }
 
 bool isBlind(const std::string& tag) {

@@ -14,6 +14,7 @@ constexpr uint32_t kHasNormals = 1u, kHasUvs = 2u, kHasColors = 8u, kFaceNormals
                    kIsDouble = 0x2000u;
 // No stream of deflate becomes longer than this many times its bytes.
 constexpr uint64_t kMostExpansion = 1032;
+constexpr size_t kMostNameBytes = 65536;
 
 // Inflates a stream piece by piece: nothing is allocated by what it claims.
 class Inflated {
@@ -147,11 +148,18 @@ class SerializedReader {
     }
   }
 
+  void readName(Inflated& data, std::string& name) {
+    for (char c = data.one<char>(); c != '\0'; c = data.one<char>()) {
+      if (name.size() >= kMostNameBytes)
+        report_.fail(place_, fmt::format("its name has more than {} bytes", kMostNameBytes));
+      name += c;
+    }
+  }
+
   MeshGeometry readMesh(Inflated& data, uint16_t version) {
     const uint32_t flags = data.one<uint32_t>();
     MeshGeometry mesh;
-    if (version == 4)
-      for (char c = data.one<char>(); c != '\0'; c = data.one<char>()) mesh.name += c;
+    if (version == 4) readName(data, mesh.name);
     const uint64_t vertices = data.one<uint64_t>(), triangles = data.one<uint64_t>();
     const bool isDouble = (flags & kIsDouble) != 0;
     const uint64_t bytesOfVertex =

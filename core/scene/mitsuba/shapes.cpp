@@ -60,13 +60,18 @@ MeshGeometry Shapes::readMesh(const Element& element, const MeshKey& key) {
   if (isAnalytic(element.type)) {
     mesh = analyticShape(element.type);
   } else {
-    const std::vector<uint8_t> bytes = context_.files.read(source, element.place, kMostMeshBytes);
-    mesh = element.type == "obj"   ? readObj(bytes, source, context_.report)
-           : element.type == "ply" ? readPly(bytes, source, context_.report)
-                                   : readSerialized(bytes, index, source, context_.report);
+    if (lastFile_ != source) {
+      lastBytes_.clear();
+      lastBytes_ = context_.files.read(source, element.place, kMostMeshBytes);
+      lastFile_ = source;
+    }
+    mesh = element.type == "obj"   ? readObj(lastBytes_, source, context_.report)
+           : element.type == "ply" ? readPly(lastBytes_, source, context_.report)
+                                   : readSerialized(lastBytes_, index, source, context_.report);
     mesh.name = std::filesystem::path(source).filename().string();
     if (flipsRows) flipRows(mesh);
   }
+  if (hasFaceNormals) mesh.normals.clear();
   completeNormals(mesh);  // also turns faces to where given normals point
   if (isFlipped) mesh = builtin::insideOut(std::move(mesh));
   if (hasTangents) addTangents(mesh);
@@ -113,6 +118,8 @@ void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
     context_.report.warn("unknown shape", element.place, text + "; it is left out");
     return;
   }
+  if (++shapes_ > kMostInstances)
+    context_.report.fail(element.place, fmt::format("more than {} shapes", kMostInstances));
   Parameters p(element, context_);
   const std::vector<const Element*> bsdfs = p.plugins("bsdf"), emitters = p.plugins("emitter");
   if (bsdfs.size() > 1 || emitters.size() > 1)
@@ -135,8 +142,6 @@ void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
     context_.report.warn("no triangles", element.place, "holds no triangle and is not drawn");
     return;
   }
-  if (context_.scene.instances.size() >= kMostInstances)
-    context_.report.fail(element.place, fmt::format("more than {} instances", kMostInstances));
   toWorld = groupToWorld * toWorld;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)

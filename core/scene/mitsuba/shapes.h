@@ -32,6 +32,10 @@ class Shapes {
   Textures& textures_;
   Bsdfs& bsdfs_;
   std::map<MeshKey, uint32_t> meshes_;
+  // The file that was read last: serialized ones hold many shapes.
+  std::string lastFile_;
+  std::vector<uint8_t> lastBytes_;
+  size_t shapes_ = 0;
   bool saysCurved_ = false;  // a note of one curved shape is enough
 };
 
