@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/dialect/features.h"
+#include "core/frame/session.h"
 #include "core/image/image.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/scene_file/scene_file.h"
@@ -280,6 +281,34 @@ TEST_F(MitsubaBsdf, BitmapsAreTheRightWayUp) {
   EXPECT_TRUE(use.nearest);
   EXPECT_EQ(use.wrapU, rl::RL_WRAP_CLAMP);
   EXPECT_NE(obj.contentHash, square.contentHash);
+}
+
+// Four colours on a lamp that fills the film: sensor, texture and kernels together.
+TEST_F(MitsubaBsdf, ALampWithABitmapIsSeenTheRightWayUp) {
+  Image image(2, 2);
+  image.at(0, 0) = {1, 0, 0};
+  image.at(1, 0) = {0, 1, 0};
+  image.at(0, 1) = {0, 0, 1};
+  image.at(1, 1) = {1, 1, 1};
+  writePng(folder_.path() / "four.png", image);
+  const Scene scene = folder_.load(
+      "<sensor type=\"perspective\"><float name=\"fov\" value=\"90\"/><transform "
+      "name=\"to_world\"><lookat origin=\"0,0,1\" target=\"0,0,0\" up=\"0,1,0\"/></transform>"
+      "<film type=\"hdrfilm\"><integer name=\"width\" value=\"64\"/><integer name=\"height\" "
+      "value=\"64\"/></film></sensor>" +
+      rectangleWith("<emitter type=\"area\"><texture name=\"radiance\" type=\"bitmap\"><string "
+                    "name=\"filename\" value=\"four.png\"/><string name=\"filter_type\" "
+                    "value=\"nearest\"/></texture></emitter>"));
+  SessionConfig config;
+  config.integrator = "path";
+  config.width = config.height = 2;
+  Session session(CompiledScene::build(scene), config);
+  session.frame();
+  const Image seen = session.radiance();
+  // Row 0 of the bitmap is at the bottom of a rectangle.
+  const glm::vec3 expected[] = {{0, 0, 1}, {1, 1, 1}, {1, 0, 0}, {0, 1, 0}};
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(glm::length(seen.pixels.at(i) - expected[i]), 0.0f, 1e-5f) << "pixel " << i;
 }
 
 TEST_F(MitsubaBsdf, ImagesOfFloatsAreRoundedAndSaid) {

@@ -125,6 +125,9 @@ TEST_F(MitsubaValues, StepsOfATransformFollowEachOther) {
   expectNear(moved(look, {0, 1, 0}), {1.0, 3.0, 3.0});
   EXPECT_EQ(errorOf("<scale x=\"0\"/>").substr(0, 44),
             "x.xml:2:25: the transform is singular or not");
+  EXPECT_NE(
+      errorOf("<matrix value=\"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.1 1\"/>").find("last row is 0 0 0.1"),
+      std::string::npos);
   EXPECT_NE(errorOf("<rotate angle=\"3\"/>").find("has no axis"), std::string::npos);
   EXPECT_NE(errorOf("<skew x=\"3\"/>").find("<skew> is no step of a transform"), std::string::npos);
   EXPECT_NE(errorOf("<matrix value=\"1 2 3\"/>").find("a matrix of 3 numbers"), std::string::npos);

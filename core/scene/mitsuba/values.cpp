@@ -103,10 +103,12 @@ glm::dmat4 matrixOf(const Element& element, bool isPlanar, const Report& report)
   if (v.size() == 16) {
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) matrix[column][row] = v[size_t(4 * row + column)];
-    if (glm::dvec4(v[12], v[13], v[14], v[15]) != glm::dvec4(0, 0, 0, 1))
+    constexpr double kTolerance = 1e-6;
+    if (glm::length(glm::dvec4(v[12], v[13], v[14], v[15] - 1.0)) > kTolerance)
       report.fail(element.place,
                   fmt::format("the last row is {:g} {:g} {:g} {:g}; 0 0 0 1 expected", v[12], v[13],
                               v[14], v[15]));
+    for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0 : 0.0;
     return matrix;
   }
   if (v.size() != 9)
