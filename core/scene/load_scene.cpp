@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
+#include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_file/scene_file.h"
 
@@ -19,7 +20,8 @@ bool isScene(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::error_code error;
-  return (extension == ".gltf" || extension == ".glb" || isSceneFile(file)) &&
+  return (extension == ".gltf" || extension == ".glb" || isSceneFile(file) ||
+          isMitsubaScene(file)) &&
          fs::is_regular_file(file, error);
 }
 
@@ -53,9 +55,9 @@ fs::path resolve(const fs::path& candidate) {
     if (scenes.size() == 1) return scenes[0];
     if (scenes.empty()) {
       const std::string reason = unreadableReason(candidate);
-      failInput(
-          fmt::format("{}: {}", candidate.string(),
-                      reason.empty() ? "no .gltf, .glb or .scene.toml in this directory" : reason));
+      failInput(fmt::format(
+          "{}: {}", candidate.string(),
+          reason.empty() ? "no .gltf, .glb, .scene.toml or .xml in this directory" : reason));
     }
     std::string names;
     for (const fs::path& scene : scenes) {
@@ -67,7 +69,7 @@ fs::path resolve(const fs::path& candidate) {
   if (fs::exists(candidate, error)) return candidate;
   if (isHidden(error))
     failInput(fmt::format("{}: {}", candidate.string(), unreadableReason(candidate)));
-  for (const char* extension : {".gltf", ".glb", ".scene.toml"}) {
+  for (const char* extension : {".gltf", ".glb", ".scene.toml", ".xml"}) {
     fs::path file = candidate;
     file += extension;
     if (fs::is_regular_file(file, error)) return file;
@@ -142,6 +144,7 @@ Scene loadScene(const std::string& nameOrPath) {
     const fs::path candidate = folder / path;
     if (const fs::path file = resolve(candidate); !file.empty()) {
       if (isSceneFile(file)) return loadSceneFile(file, settings);
+      if (isMitsubaFile(file)) return loadMitsuba(file, settings);
       return loadGltf(file, variantOf(settings, nameOrPath));
     }
     tried += (tried.empty() ? "" : ", ") + candidate.string();

@@ -143,6 +143,7 @@ struct Scene {
   float ambientFactor = 1.0f;           // core/scene/compiled/light_factor.h
   std::optional<glm::vec3> background;  // radiance that the camera sees where it sees nothing
   std::vector<std::string> warnings;    // one line each, printed by the program
+  std::vector<std::string> notes;       // likewise: what the reader did in another way
   uint64_t contentHash = 0;             // hash of every byte the scene was made from
   size_t skippedPrimitives = 0;         // number of points and lines
   // Names in KHR_materials_variants, and the one whose materials are drawn (nullopt: the default).
@@ -174,7 +175,8 @@ std::string builtinSceneSummary(const std::string& name);
 // Parameters of this scene, then those of every built-in scene.
 std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 
-// Loads a built-in by name, or a path: tried as given, then under RESTLAB_SCENES, then under
+// Loads a built-in by name, or a path (glTF, scene files, Mitsuba's XML): tried as given, then
+// under RESTLAB_SCENES, then under
 // ../shared/scenes; a directory or a stem finds the one scene inside. Throws Error (badInput).
 Scene loadScene(const std::string& nameOrPath);
 

@@ -82,14 +82,37 @@ add_library(rl_scene_files OBJECT
   scene/builtin/quad_light.cpp
   scene/builtin/shell.cpp
   scene/builtin/sky.cpp
+  scene/mitsuba/analytic_shapes.cpp
+  scene/mitsuba/bsdf.cpp
+  scene/mitsuba/bsdf_kinds.cpp
+  scene/mitsuba/document.cpp
+  scene/mitsuba/emitters.cpp
+  scene/mitsuba/files.cpp
+  scene/mitsuba/load.cpp
+  scene/mitsuba/mesh_normals.cpp
+  scene/mitsuba/obj.cpp
+  scene/mitsuba/optical_constants.cpp
+  scene/mitsuba/parameters.cpp
+  scene/mitsuba/ply.cpp
+  scene/mitsuba/report.cpp
+  scene/mitsuba/sensor.cpp
+  scene/mitsuba/serialized.cpp
+  scene/mitsuba/shapes.cpp
+  scene/mitsuba/spectrum.cpp
+  scene/mitsuba/textures.cpp
+  scene/mitsuba/values.cpp
+  scene/gltf_write/materials.cpp
+  scene/gltf_write/nodes.cpp
+  scene/gltf_write/write.cpp
 )
 target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
-                      nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer)
+                      nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer
+                      pugixml::pugixml ZLIB::ZLIB)
 rl_compile_lightly(rl_scene_files)
-rl_compile_together(rl_scene_files 1 gltf builtin)
+rl_compile_together(rl_scene_files 1 gltf builtin mitsuba gltf_write)
 # Draco's headers define macros with short names.
 set_property(SOURCE scene/gltf/draco_mesh.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 # tinygltf is compiled into tinygltf.cpp (with its own file and image access left out).
 set_property(SOURCE scene/gltf/tinygltf.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 target_sources(rl_core PRIVATE $<TARGET_OBJECTS:rl_scene_files>)
-target_link_libraries(rl_core PRIVATE draco::draco meshoptimizer::meshoptimizer)
+target_link_libraries(rl_core PRIVATE draco::draco meshoptimizer::meshoptimizer pugixml::pugixml ZLIB::ZLIB)

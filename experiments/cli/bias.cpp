@@ -400,7 +400,8 @@ Action addBiasVerb(CLI::App& app) {
       app.add_subcommand("bias", "is a method biased? a verdict from independent runs");
   addSceneOptions(*verb, options->scene);
   verb->get_option("scene")->required(false)->description(
-      "a glTF file, a built-in scene, or a suite, whose methods are all certified");
+      "a glTF, Mitsuba or scene file, a built-in scene, or a suite, whose methods are all "
+      "certified");
   verb->get_option("--resolution")
       ->description("WxH pixels (default: 96 wide, the camera's aspect ratio)");
   addMethodOptions(*verb, options->method);

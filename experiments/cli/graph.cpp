@@ -240,8 +240,8 @@ Action addGraphVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("graph", "the passes of a method's frame and their buffers");
   verb->add_option("method", options->method.choice.integrator, "an integrator")->required();
   verb->add_option("--scene", options->scene.request.scene,
-                   "a glTF file or a built-in scene (default cornell-box)");
-  addVariant(*verb, options->scene.request.scene);
+                   "a glTF, Mitsuba or scene file or a built-in scene (default cornell-box)");
+  addSceneSettings(*verb, options->scene.request.scene);
   verb->add_option("--camera", options->scene.request.camera, "name or index (default: the first)");
   verb->add_option("-o,--output", options->output, "an .svg file");
   verb->add_flag("--json", options->json, "JSON on stdout");

@@ -152,7 +152,8 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
   json["features_needed"] = featureNames(compiled.features(multiscatter));
   json["integrators"] = supportJson(prepared, multiscatter);
   json["warnings"] = compiled.warnings();
-  json["notes"] = materialNotes(scene);
+  json["notes"] = scene.notes;
+  for (const std::string& note : materialNotes(scene)) json["notes"].push_back(note);
   return json;
 }
 
@@ -252,8 +253,10 @@ void info(const InfoOptions& options) {
 Action addInfoVerb(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand("info", "what a scene holds and needs");
-  verb->add_option("scene", options->request.scene, "a glTF file or a built-in scene")->required();
-  addVariant(*verb, options->request.scene);
+  verb->add_option("scene", options->request.scene,
+                   "a glTF, Mitsuba or scene file or a built-in scene")
+      ->required();
+  addSceneSettings(*verb, options->request.scene);
   verb->add_option("--camera", options->request.camera,
                    "name or index of the camera to show (default: all of them)");
   verb->add_option("--environment", options->request.environment,

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "experiments/cli/reference_page.h"
 #include "experiments/cli/verbs.h"
@@ -40,7 +41,9 @@ std::vector<std::string> scenesOfOthers() {
   for (fs::recursive_directory_iterator it(folder, status), end; !status && it != end;
        it.increment(status)) {
     const std::string extension = it->path().extension().string();
-    if (extension != ".gltf" && extension != ".glb" && !isSceneFile(it->path())) continue;
+    if (extension != ".gltf" && extension != ".glb" && !isMitsubaScene(it->path()) &&
+        !isSceneFile(it->path()))
+      continue;
     const std::string name = fs::relative(it->path(), folder).string();
     if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files for tests
   }

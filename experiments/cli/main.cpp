@@ -135,7 +135,8 @@ int main(int argc, char** argv) {
                              {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
                              {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
                              {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)},
-                             {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)}};
+                             {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)},
+                             {"convert", addConvertVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     checkDefaultKernelChoice();

@@ -196,17 +196,34 @@ void addOutput(CLI::App& verb, std::string& output) {
   verb.add_option("-o,--output,--outfile", output, "EXR file to write")->required();
 }
 
-void addVariant(CLI::App& verb, std::string& scene) {
+void addSceneSettings(CLI::App& verb, std::string& scene) {
   verb.add_option_function<std::string>(
       "--variant", [&scene](const std::string& name) { scene += "?variant=" + name; },
       "of a glTF file's materials, as FILE?variant=NAME");
+  const auto append = [&scene](const std::string& setting) {
+    scene += (scene.find('?') == std::string::npos ? "?" : "&") + setting;
+  };
+  verb.add_option_function<std::vector<std::string>>(
+          "-D,--define",
+          [append](const std::vector<std::string>& all) {
+            for (const std::string& one : all) {
+              splitAssignment(one, "--define");
+              append(one);
+            }
+          },
+          "NAME=VALUE of a $NAME in Mitsuba's XML, as FILE?NAME=VALUE")
+      ->allow_extra_args(false);
+  verb.add_flag_function(
+      "--allow-unknown", [append](int64_t) { append("allow_unknown=1"); },
+      "of Mitsuba's XML: draws what is unknown as mid grey, with a warning");
 }
 
 void addSceneOptions(CLI::App& verb, SceneOptions& options) {
   SceneRequest& request = options.request;
-  verb.add_option("scene", request.scene, "a glTF file or a built-in scene (restlab list scenes)")
+  verb.add_option("scene", request.scene,
+                  "a glTF, Mitsuba or scene file, or a built-in scene (restlab list scenes)")
       ->required();
-  addVariant(verb, request.scene);
+  addSceneSettings(verb, request.scene);
   verb.add_option("--resolution", options.resolution,
                   "WxH pixels (default: 512 wide, the camera's "
                   "aspect ratio)");

@@ -47,8 +47,9 @@ CLI::Validator numberFrom(double lo, double hi, const std::string& unit = "");
 // Accepts a whole number in lo..hi, also as 1e6.
 CLI::Validator wholeNumberFrom(uint64_t lo, uint64_t hi);
 
-// Adds --variant, which is written behind the name of the scene; the scene's option comes first.
-void addVariant(CLI::App& verb, std::string& scene);
+// Adds --variant, --define and --allow-unknown, which are written behind the name of the scene; the
+// scene's option comes first.
+void addSceneSettings(CLI::App& verb, std::string& scene);
 void addSceneOptions(CLI::App& verb, SceneOptions& options);
 void addMethodOptions(CLI::App& verb, MethodOptions& options);
 void addBackendOptions(CLI::App& verb, BackendChoice& options);

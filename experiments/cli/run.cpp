@@ -119,7 +119,7 @@ void setJobs(uint32_t jobs, Suite& suite) {
 void refuseScene(const std::string& name) {
   const std::string file = splitSceneSettings(name).first;
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension != ".gltf" && extension != ".glb" && !isSceneFile(file) &&
+  if (extension != ".gltf" && extension != ".glb" && extension != ".xml" && !isSceneFile(file) &&
       (!isBuiltinScene(name) || std::filesystem::exists(name)))
     return;
   failUsage(

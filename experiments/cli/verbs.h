@@ -29,6 +29,7 @@ Action addCompareVerb(CLI::App& app);
 Action addFigureVerb(CLI::App& app);
 Action addDenoiseVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
+Action addConvertVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
 Action addBiasVerb(CLI::App& app);

@@ -285,7 +285,8 @@ Action addViewVerb(CLI::App& app) {
       "view", "compare two methods and their reference live, on a page in a browser");
   addSceneOptions(*verb, options->scene);
   verb->get_option("scene")->required(false)->description(
-      "a glTF file, a built-in scene (default door-ajar), a suite *.toml: its first two methods, "
+      "a glTF, Mitsuba or scene file, a built-in scene (default door-ajar), a suite *.toml: its "
+      "first two methods, "
       "a folder of `run`: its images, or an image *.exr");
   verb->add_option("images", options->images,
                    "*.exr: more images to compare, or one beside the methods of a scene");

@@ -24,5 +24,10 @@ bool readMeshopt(const uint8_t* bytes, size_t count);
 bool readTexture(const uint8_t* bytes, size_t count);  // PNG or JPEG
 // .scene.toml, and, behind a byte 0, settings behind its name
 bool readSceneFile(const uint8_t* bytes, size_t count);
+// Mitsuba's XML, and, behind a byte 0, settings behind its name; its meshes.
+bool readMitsuba(const uint8_t* bytes, size_t count);
+bool readObjMesh(const uint8_t* bytes, size_t count);
+bool readPlyMesh(const uint8_t* bytes, size_t count);
+bool readSerializedMesh(const uint8_t* bytes, size_t count);
 
 }  // namespace restlab::fuzz

@@ -41,14 +41,15 @@ TEST_P(Seeds, AreReadOrRefused) {
   EXPECT_GT(refused, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Seeds,
-                         ::testing::Values(Target{"gltf", readGltf}, Target{"suite", readSuite},
-                                           Target{"hdr", readHdr}, Target{"draco", readDraco},
-                                           Target{"meshopt", readMeshopt}, Target{"exr", readExr},
-                                           Target{"texture", readTexture},
-                                           Target{"command", readCommand},
-                                           Target{"scene_file", readSceneFile}),
-                         [](const auto& target) { return std::string(target.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Seeds,
+    ::testing::Values(Target{"gltf", readGltf}, Target{"suite", readSuite}, Target{"hdr", readHdr},
+                      Target{"draco", readDraco}, Target{"meshopt", readMeshopt},
+                      Target{"exr", readExr}, Target{"texture", readTexture},
+                      Target{"command", readCommand}, Target{"scene_file", readSceneFile},
+                      Target{"mitsuba", readMitsuba}, Target{"obj", readObjMesh},
+                      Target{"ply", readPlyMesh}, Target{"serialized", readSerializedMesh}),
+    [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace restlab::fuzz

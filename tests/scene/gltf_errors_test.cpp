@@ -38,7 +38,8 @@ void expectError(GltfBuilder& file, const std::string& expected) {
 
 TEST(GltfErrors, Files) {
   EXPECT_EQ(errorOf("a.gltf", ""), "the file is empty");
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0"), "not a scene file; .gltf or .glb expected");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0"),
+            "not a scene file; .gltf, .glb, .scene.toml or .xml expected");
   EXPECT_NE(errorOf("a.gltf", "{\"asset\": \n {\"version\" 2}}").find("line 2, column 13"),
             std::string::npos);
   EXPECT_NE(errorOf("a.gltf", "{\"asset\": {\"version\": \"2.0\"}").find("not valid JSON"),

@@ -50,16 +50,21 @@ TEST(LoadScene, FileDirectoryAndStem) {
   directory.write("two/a.gltf", kEmptyScene);
   directory.write("two/b.glb", "");
   directory.write("none/readme.txt", "");
+  directory.write("room/notes.xml", "<notes/>");
+  directory.write("mitsuba/scene.xml", "<scene version=\"3.0.0\"><shape type=\"cube\"/></scene>");
   const fs::path root = directory.path();
   for (const fs::path& path : {root / "room/room.gltf", root / "room", root / "room/room"}) {
     EXPECT_EQ(loadScene(path.string()).source, root / "room/room.gltf") << path;
   }
   EXPECT_EQ(loadScene((root / "khronos").string()).name, "box");
+  for (const fs::path& path : {root / "mitsuba/scene", root / "mitsuba"})
+    EXPECT_EQ(loadScene(path.string()).source, root / "mitsuba/scene.xml") << path;
   EXPECT_NE(errorOf([&] { loadScene((root / "two").string()); }).find("name one of a.gltf, b.glb"),
             std::string::npos);
-  EXPECT_NE(
-      errorOf([&] { loadScene((root / "none").string()); }).find("no .gltf, .glb or .scene.toml"),
-      std::string::npos);
+  EXPECT_NE(errorOf([&] {
+              loadScene((root / "none").string());
+            }).find("no .gltf, .glb, .scene.toml or .xml"),
+            std::string::npos);
   EXPECT_NE(errorOf([&] { loadScene((root / "rom").string()); }).find("did you mean '"),
             std::string::npos);
 }

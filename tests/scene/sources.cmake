@@ -34,5 +34,11 @@ set(RL_SCENE_TESTS
   scene/scene_origin_test.cpp
   ${RL_BUILTIN_TESTS}
   scene/daylight_test.cpp
+  scene/gltf_write_test.cpp
+  scene/mitsuba_bsdf_test.cpp
+  scene/mitsuba_builder.cpp
+  scene/mitsuba_document_test.cpp
+  scene/mitsuba_meshes_test.cpp
+  scene/mitsuba_values_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

@@ -75,7 +75,8 @@ struct Free {
 }  // namespace
 
 std::string encodePng(const std::string& what, uint32_t width, uint32_t height,
-                      const uint8_t* bytes, const std::map<std::string, std::string>& metadata) {
+                      const uint8_t* bytes, const std::map<std::string, std::string>& metadata,
+                      uint32_t channels) {
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(SPNG_CTX_ENCODER),
                                                                     &spng_ctx_free);
   if (!context) throw std::bad_alloc();
@@ -83,14 +84,14 @@ std::string encodePng(const std::string& what, uint32_t width, uint32_t height,
   header.width = width;
   header.height = height;
   header.bit_depth = 8;
-  header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
+  header.color_type = channels == 4 ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   int error = spng_set_ihdr(context.get(), &header);
   if (error == 0) error = spng_set_srgb(context.get(), 0);
   // libspng keeps pointers to the texts until the image is encoded.
   std::vector<Text> texts = textsOf(metadata);
   if (error == 0) setTexts(context.get(), texts);
-  const size_t size = size_t(width) * height * 3;
+  const size_t size = size_t(width) * height * channels;
   if (error == 0)
     error = spng_encode_image(context.get(), bytes, size, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
   size_t length = 0;

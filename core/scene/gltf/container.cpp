@@ -333,7 +333,7 @@ Container readContainer(const fs::path& file, Report& report) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".gltf" && extension != ".glb") {
-    report.fail("", "not a scene file; .gltf or .glb expected");
+    report.fail("", "not a scene file; .gltf, .glb, .scene.toml or .xml expected");
   }
   constexpr uint64_t kMaxFileBytes = UINT32_MAX;  // limit of a GLB header
   const uint64_t size = fs::file_size(file, error);

@@ -47,16 +47,32 @@ glm::dvec3 readColor(const ConfigTable& table, const ClosureParameter& p) {
   return isGrey ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
 }
 
-// NAME_texture, NAME_uv_set and, of a number, NAME_channel. Factors below 1 would leave the range
-// of what begins above 0.
+uint32_t readWrap(const ConfigTable& table, const std::string& key) {
+  const std::string mode = table.getChoice(key, "repeat", {"repeat", "clamp", "mirror"});
+  return mode == "clamp"    ? rl::RL_WRAP_CLAMP
+         : mode == "mirror" ? rl::RL_WRAP_MIRROR
+                            : rl::RL_WRAP_REPEAT;
+}
+
+// NAME_texture, how it lies on the surface and, of a number, NAME_channel. Factors below 1 would
+// leave the range of what begins above 0.
 void readTexture(const ConfigTable& table, const ClosureParameter& p, SceneFileInputs& inputs,
                  ClosureValue& value) {
   const std::string key = p.name + "_texture";
   if (p.lo > 0.0 || !table.has(key)) return;
   const bool isColor = p.kind == Kind::color;
-  const int64_t uvSet = table.getInteger(p.name + "_uv_set", 0, 0, int64_t(rl::RL_MAX_UV_SETS) - 1);
-  value.texture =
-      inputs.addTexture(table.getString(key, ""), isColor, uint32_t(uvSet), table.place(key));
+  TextureUse use;
+  use.srgb = isColor;
+  use.uvSet = uint32_t(table.getInteger(p.name + "_uv_set", 0, 0, int64_t(rl::RL_MAX_UV_SETS) - 1));
+  const std::vector<double> rows =
+      table.getNumbers(p.name + "_transform", {1.0, 0.0, 0.0, 0.0, 1.0, 0.0}, 6, -1e6, 1e6);
+  use.uvRow0 = glm::vec3(rows[0], rows[1], rows[2]);
+  use.uvRow1 = glm::vec3(rows[3], rows[4], rows[5]);
+  use.nearest =
+      table.getChoice(p.name + "_filter", "bilinear", {"bilinear", "nearest"}) == "nearest";
+  use.wrapU = readWrap(table, p.name + "_wrap_u");
+  use.wrapV = readWrap(table, p.name + "_wrap_v");
+  value.texture = inputs.addTexture(table.getString(key, ""), use, table.place(key));
   if (isColor) return;
   const std::vector<std::string> channels = {"r", "g", "b", "a"};
   const std::string channel = table.getChoice(p.name + "_channel", "r", channels);
@@ -222,7 +238,7 @@ void checkShares(const ConfigTable& table, const ClosureInfo& info,
 
 }  // namespace
 
-uint32_t SceneFileInputs::addTexture(const std::string& file, bool isSrgb, uint32_t uvSet,
+uint32_t SceneFileInputs::addTexture(const std::string& file, TextureUse use,
                                      const std::string& place) {
   const fs::path path = folder_ / file;
   auto found = findPath(images_, path);
@@ -236,10 +252,7 @@ uint32_t SceneFileInputs::addTexture(const std::string& file, bool isSrgb, uint3
     scene_.images.push_back({file, image.width, image.height, std::move(image.texels)});
     found = images_.insert(images_.end(), {path, uint32_t(scene_.images.size() - 1)});
   }
-  TextureUse use;
   use.image = found->second;
-  use.srgb = isSrgb;
-  use.uvSet = uvSet;
   scene_.textureUses.push_back(use);
   return uint32_t(scene_.textureUses.size() - 1);
 }

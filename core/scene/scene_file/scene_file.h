@@ -65,9 +65,8 @@ struct Scattering {
 class SceneFileInputs {
  public:
   SceneFileInputs(std::filesystem::path folder, Scene& scene) : folder_(folder), scene_(scene) {}
-  // Index of a new texture use. Throws Error (badInput) at `place`, as the next two.
-  uint32_t addTexture(const std::string& file, bool isSrgb, uint32_t uvSet,
-                      const std::string& place);
+  // Index of a use of the file's image. Throws Error (badInput) at `place`, as the next two.
+  uint32_t addTexture(const std::string& file, TextureUse use, const std::string& place);
   // Index into Scene::tables.
   uint32_t addTable(const std::string& file, const std::string& place);
   // Index into Scene::materials of a part of a mixture, one of those that were offered.

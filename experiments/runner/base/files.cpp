@@ -85,7 +85,7 @@ fs::path findAsset(const std::string& name) {
     folders.push_back("../shared/scenes");
   }
   for (const fs::path& folder : folders) {
-    for (const char* extension : {"", ".gltf", ".glb", ".scene.toml"}) {
+    for (const char* extension : {"", ".gltf", ".glb", ".scene.toml", ".xml"}) {
       const fs::path candidate = folder / (name + extension);
       if (fs::exists(candidate, status)) return candidate;
     }

@@ -6,6 +6,7 @@
 
 #include "core/base/config.h"
 #include "core/base/error.h"
+#include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/suite/image_settings.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 // Returns whether the environment is the scene's own, of which an image knows no file.
 bool hasEnvironment(const std::string& name, const std::string& environment) {
-  if (!isBuiltinScene(name) && !isSceneFile(splitSceneSettings(name).first)) return false;
+  const std::string file = splitSceneSettings(name).first;
+  if (!isBuiltinScene(name) && !isSceneFile(file) && !isMitsubaFile(file)) return false;
   const Scene scene = loadScene(name);
   if (!scene.environment) return false;
   const std::string& own = scene.environment->source;

@@ -19,6 +19,7 @@
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
+#include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "experiments/runner/suite/image_settings.h"
 
@@ -175,6 +176,7 @@ void chooseCamera(PreparedScene& prepared, const std::string& nameOrIndex) {
 
 void printWarnings(const PreparedScene& prepared) {
   for (const std::string& warning : prepared.scene->warnings()) logWarning(warning);
+  for (const std::string& note : prepared.scene->source().notes) logInfo(note);
   for (const std::string& note : materialNotes(prepared.scene->source())) logInfo(note);
 }
 
@@ -201,9 +203,10 @@ std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config) {
   const Scene& source = prepared.scene->source();
-  const std::string settings = isSceneFile(source.source) ? splitSceneSettings(source.name).second
-                               : source.variant           ? "variant=" + *source.variant
-                                                          : "";
+  const bool isNamed = isSceneFile(source.source) || isMitsubaFile(source.source);
+  const std::string settings = isNamed          ? splitSceneSettings(source.name).second
+                               : source.variant ? "variant=" + *source.variant
+                                                : "";
   std::map<std::string, std::string> words = {
       {"program", "restlab"},
       {"scene", source.name},
