@@ -11,7 +11,7 @@ RL_NAMESPACE_BEGIN
 struct MaterialPoint {
   uint firstParameter;  // in SceneData::closureParameters
   Geometry geometry;
-  uvec3 corners;  // of a triangle, or shapeCorners()
+  uvec3 corners;  // of a triangle
   vec2 bary;      // on a triangle, or the texture coordinates of a shape
 };
 

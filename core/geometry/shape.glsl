@@ -56,13 +56,6 @@ RL_FN_OUTLINE ShapePointW shapePointW(RL_IN(Instance) inst, RL_IN(Geometry) geom
   return shapePointToWorld(inst, shapePoint(shapeOf(geometry), id));
 }
 
-// Stands in for a triangle's corners: x is 1 if the normal lies along cross(dp/du,
-// dp/dv).
-RL_FN uvec3 shapeCorners(RL_IN(ShapePointW) p) {
-  bool isAlong = dot(cross(p.tangents.e1, p.tangents.e2), p.normalW) > 0.0f;
-  return uvec3(isAlong ? 1u : 0u, 0u, 0u);
-}
-
 // Density per area, in world space, with which a light sample for a receiver finds a point of a
 // shape that emits.
 RL_FN_OUTLINE float shapeLightDensity(RL_IN(SurfaceId) id, RL_IN(vec3) receiverW) {

@@ -45,7 +45,6 @@ RL_FN TriangleW surfaceTriangle(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
 RL_PROTO(bool shapeIs(RL_IN(Geometry) geometry))
 RL_PROTO(ShapePointW shapePointW(RL_IN(Instance) inst, RL_IN(Geometry) geometry,
                                  RL_IN(SurfaceId) id))
-RL_PROTO(uvec3 shapeCorners(RL_IN(ShapePointW) p))
 
 // Index in the light table of a part of an emitting instance: a triangle, or its whole shape.
 RL_FN uint surfaceLight(RL_IN(Instance) inst, bool isShape, uint primitive) {
@@ -65,7 +64,7 @@ RL_FN MaterialPoint surfaceMaterialPoint(RL_IN(Instance) inst, RL_IN(Geometry) g
     id.primitive = primitive;
     id.bary = bary;
     ShapePointW shape = shapePointW(inst, geometry, id);
-    at.corners = shapeCorners(shape);
+    at.corners = uvec3(0u, 0u, 0u);
     at.bary = shape.uv;
     return at;
   }
@@ -107,10 +106,8 @@ RL_PROTO(void surfaceAddLayers(RL_INOUT(Surface) s, RL_IN(Material) material,
 RL_FN vec3 surfaceTangentFromUv(RL_IN(TriangleW) t, RL_IN(Geometry) geometry, RL_IN(uvec3) corners,
                                 uint uvSet, RL_OUT(float) handedness) {
   handedness = 1.0f;
-  if (RL_HAS_SHAPES && geometry.shape != RL_SHAPE_TRIANGLES) {
-    handedness = corners.x != 0u ? -1.0f : 1.0f;
-    return t.e1;
-  }
+  // A shape's bitangent is at the left of u.
+  if (RL_HAS_SHAPES && geometry.shape != RL_SHAPE_TRIANGLES) return t.e1;
   uint offset = geometry.uvOffset[uvSet];
   if (offset == RL_INVALID) return vec3(0.0f, 0.0f, 0.0f);
   vec2 uv0 = RL_SCENE_VEC2(gScene.uvs, offset + corners.x);
@@ -259,7 +256,7 @@ RL_FN Surface surfaceLoadBetween(RL_IN(Hit) hit, RL_IN(vec3) rayDir, float contr
   vec2 bary = hit.bary;
   if (isShape) {
     ShapePointW shape = shapePointW(inst, geometry, s.id);
-    corners = shapeCorners(shape);
+    corners = uvec3(0u, 0u, 0u);
     t = shape.tangents;
     point = surfacePointOfShape(shape);
     bary = shape.uv;

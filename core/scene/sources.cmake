@@ -31,6 +31,7 @@ target_sources(rl_core PRIVATE
   scene/camera_path/sight.cpp
   scene/compiled/split_triangles.cpp
   scene/shapes/shape_info.cpp
+  scene/shapes/fine_meshes.cpp
   ${RL_SHAPE_HOST_SOURCES}
 )
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)
@@ -82,7 +83,6 @@ add_library(rl_scene_files OBJECT
   scene/builtin/quad_light.cpp
   scene/builtin/shell.cpp
   scene/builtin/sky.cpp
-  scene/mitsuba/analytic_shapes.cpp
   scene/mitsuba/bsdf.cpp
   scene/mitsuba/bsdf_kinds.cpp
   scene/mitsuba/document.cpp

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/scene/builtin/builder.h"
+#include "core/scene/shapes/fine_meshes.h"
 #include "core/scene/shapes/shape_info.h"
 #include "tests/unit/constants.h"
 #include "tests/unit/dialect_context.h"
@@ -171,6 +172,31 @@ TEST_P(Shapes, TheStandInFacesOutside) {
   const rl::ShapePoint any = local.d->shapePoint(local.shape, {0, 0, {0.5f, 0.5f}});
   const float density = local.d->shapeDensity(local.shape, glm::vec3(0.0f, 0.0f, 0.5f), any);
   EXPECT_NEAR(area * double(density), 1.0, 0.02);
+}
+
+TEST_P(Shapes, TheFineMeshHasItsNormalsAndTextureCoordinates) {
+  LocalShape local(GetParam());
+  const MeshGeometry mesh = fineMesh({GetParam().info, GetParam().values});
+  int compared = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const auto mean = [&](const auto& of) { return (of[t.x] + of[t.y] + of[t.z]) / 3.0f; };
+    const glm::vec3 n = glm::normalize(mean(mesh.normals)), at = mean(mesh.positions);
+    rl::Hit hit{};
+    rl::Ray ray = rayOf(at + 0.1f * n, -n);
+    ray.tMax = 0.2f;
+    ASSERT_TRUE(local.d->shapeIntersect(local.shape, ray, hit));
+    const rl::ShapePoint p = local.d->shapePoint(local.shape, idOf(hit));
+    ASSERT_LT(glm::distance(p.normalL, n), 0.03f);
+    const glm::vec2 uv = mean(mesh.uvs[0]);
+    // Coordinates turn fast at a pole.
+    if (glm::length(glm::vec2(at)) < 0.5f && GetParam().info->name != "cube" &&
+        GetParam().info->name != "rectangle")
+      continue;
+    EXPECT_NEAR(p.uv.x, uv.x, 0.01f);
+    EXPECT_NEAR(p.uv.y, uv.y, 0.01f);
+    ++compared;
+  }
+  EXPECT_GT(compared, 1);
 }
 
 // Counts draws in cells of the ids' coordinates, against the integral of the density over each.

@@ -1,6 +1,6 @@
 // The cone about z from a circle of radius 1 at z = 0 to its tip at z = 1. Parameter: x is 1 with a
 // base, 0 without. An id holds the side (primitive 0: turn around z, height) or the base (1: x, y).
-// Textures: u runs around z from x to y, v down; on the base from the centre out.
+// Textures: u runs around z from x to y, v down; on the base as on a disk.
 
 RL_FN float coneBase(RL_IN(Shape) shape) {
   return uintBitsToFloat(RL_SCENE_UVEC4(gScene.shapeWords, shape.firstWord).x);

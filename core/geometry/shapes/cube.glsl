@@ -1,6 +1,6 @@
 // The cube from (-1, -1, -1) to (1, 1, 1). An id holds the face (primitive: 0 and 1 x = -1 and 1,
 // 2 and 3 y, 4 and 5 z) and its coordinates along the next two axes.
-// Textures: u and v along these axes, mirrored so that v runs down on every face from outside.
+// Textures: each face has its own axes (cubeTextureAxis), those of Mitsuba's cube.
 
 // A vector with the coordinates (along the axis of a face, along the next, along the one after).
 RL_FN vec3 cubeAxes(uint axis, RL_IN(vec3) v) {
@@ -50,6 +50,19 @@ RL_FN bool cubeIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) 
   return true;
 }
 
+// Unit vector along u (0) or v (1) of a face.
+RL_FN vec3 cubeTextureAxis(uint face, uint which) {
+  vec3 x = vec3(1.0f, 0.0f, 0.0f);
+  vec3 y = vec3(0.0f, 1.0f, 0.0f);
+  vec3 z = vec3(0.0f, 0.0f, 1.0f);
+  if (face == 0u) return which == 0u ? y : z;
+  if (face == 1u) return which == 0u ? y : -z;
+  if (face == 2u) return which == 0u ? z : x;
+  if (face == 3u) return which == 0u ? -x : -z;
+  if (face == 4u) return which == 0u ? -y : x;
+  return which == 0u ? y : x;
+}
+
 RL_FN ShapePoint cubePoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   uint axis = id.primitive / 2u;
   float side = (id.primitive & 1u) != 0u ? 1.0f : -1.0f;
@@ -57,9 +70,9 @@ RL_FN ShapePoint cubePoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   ShapePoint p =
       shapePointOn(cubeAxes(axis, vec3(side, at.x, at.y)), cubeAxes(axis, vec3(side, 0.0f, 0.0f)));
   p.extent = vec3(1.0f, 1.0f, 1.0f);
-  p.dpdu = cubeAxes(axis, vec3(0.0f, 2.0f * side, 0.0f));
-  p.dpdv = cubeAxes(axis, vec3(0.0f, 0.0f, -2.0f));
-  p.uv = vec2(side > 0.0f ? id.bary.x : 1.0f - id.bary.x, 1.0f - id.bary.y);
+  p.dpdu = cubeTextureAxis(id.primitive, 0u) * 2.0f;
+  p.dpdv = cubeTextureAxis(id.primitive, 1u) * 2.0f;
+  p.uv = vec2(dot(p.posL, p.dpdu), dot(p.posL, p.dpdv)) * 0.25f + vec2(0.5f, 0.5f);
   return p;
 }
 

@@ -1,6 +1,6 @@
 // The cylinder of radius 1 about z, from z = 0 to z = 1. Parameter: x is 1 with ends, 0 without.
 // An id holds the side (primitive 0: turn around z, height) or an end (1: z = 0, 2: z = 1; x, y).
-// Textures: u runs around z from x to y, v down; on the ends from the centre out.
+// Textures: u runs around z from x to y, v along z; on the ends as on a disk.
 
 RL_FN float cylinderEnds(RL_IN(Shape) shape) {
   return uintBitsToFloat(RL_SCENE_UVEC4(gScene.shapeWords, shape.firstWord).x);
@@ -56,8 +56,8 @@ RL_FN ShapePoint cylinderPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   vec2 at = shapeFromDiamond(id.bary.x);
   ShapePoint p = shapePointOn(vec3(at.x, at.y, id.bary.y), vec3(at.x, at.y, 0.0f));
   p.dpdu = vec3(-at.y, at.x, 0.0f);
-  p.dpdv = vec3(0.0f, 0.0f, -1.0f);
-  p.uv = vec2(shapeTurn(at), 1.0f - id.bary.y);
+  p.dpdv = vec3(0.0f, 0.0f, 1.0f);
+  p.uv = vec2(shapeTurn(at), id.bary.y);
   return p;
 }
 

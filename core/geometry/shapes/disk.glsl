@@ -1,5 +1,5 @@
 // The unit disk in the plane z = 0, outside on +z. An id holds x and y.
-// Textures: u runs around z from x to y, v from the centre out.
+// Textures: u from the centre out, v around z from x to y.
 
 RL_FN bool diskIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
   float t = -ray.origin.z / ray.dir.z;
@@ -16,13 +16,13 @@ RL_FN ShapePoint diskPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   vec2 at = id.bary * 2.0f - vec2(1.0f, 1.0f);
   ShapePoint p = shapePointOn(vec3(at.x, at.y, 0.0f), vec3(0.0f, 0.0f, 1.0f));
   p.extent = vec3(1.0f, 1.0f, 0.0f);
-  p.dpdu = vec3(-at.y, at.x, 0.0f);
-  p.dpdv = vec3(at.x, at.y, 0.0f);
+  p.dpdu = vec3(at.x, at.y, 0.0f);
+  p.dpdv = vec3(-at.y, at.x, 0.0f);
   if (at.x == 0.0f && at.y == 0.0f) {
-    p.dpdu = vec3(0.0f, 1.0f, 0.0f);
-    p.dpdv = vec3(1.0f, 0.0f, 0.0f);
+    p.dpdu = vec3(1.0f, 0.0f, 0.0f);
+    p.dpdv = vec3(0.0f, 1.0f, 0.0f);
   }
-  p.uv = vec2(shapeTurn(at), sqrt(dot(at, at)));
+  p.uv = vec2(sqrt(dot(at, at)), shapeTurn(at));
   return p;
 }
 

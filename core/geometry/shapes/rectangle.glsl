@@ -1,5 +1,5 @@
 // The square from (-1, -1) to (1, 1) in the plane z = 0, outside on +z. An id holds x and y.
-// Textures: u along x, v against y.
+// Textures: u along x, v along y.
 
 RL_FN bool rectangleIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
   float t = -ray.origin.z / ray.dir.z;
@@ -17,8 +17,8 @@ RL_FN ShapePoint rectanglePoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   ShapePoint p = shapePointOn(vec3(at.x, at.y, 0.0f), vec3(0.0f, 0.0f, 1.0f));
   p.extent = vec3(1.0f, 1.0f, 0.0f);
   p.dpdu = vec3(2.0f, 0.0f, 0.0f);
-  p.dpdv = vec3(0.0f, -2.0f, 0.0f);
-  p.uv = vec2(id.bary.x, 1.0f - id.bary.y);
+  p.dpdv = vec3(0.0f, 2.0f, 0.0f);
+  p.uv = id.bary;
   return p;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scene/gltf_write/document.h"
+#include "core/scene/shapes/fine_meshes.h"
 
 namespace restlab::gltf_write {
 namespace {
@@ -59,7 +60,11 @@ void addInstances(const Scene& scene, Output& output) {
   for (const MeshInstance& instance : scene.instances) {
     const MeshGeometry& geometry = scene.geometries.at(instance.geometry);
     json& primitive = primitives.at(instance.geometry);
-    if (primitive.is_null()) {
+    if (primitive.is_null() && geometry.shape != nullptr) {
+      const MeshGeometry fine = fineMesh(*geometry.shape);
+      primitive = {{"attributes", attributesOf(fine, output)},
+                   {"indices", accessorOf(fine.triangles, "SCALAR", kUint, output)}};
+    } else if (primitive.is_null()) {
       primitive = {{"attributes", attributesOf(geometry, output)},
                    {"indices", accessorOf(geometry.triangles, "SCALAR", kUint, output)}};
     }

@@ -9,15 +9,26 @@
 
 #include "core/base/error.h"
 #include "core/scene/builtin/mesh.h"
-#include "core/scene/mitsuba/analytic_shapes.h"
 #include "core/scene/mitsuba/emitters.h"
 #include "core/scene/mitsuba/mesh_files.h"
+#include "core/scene/shapes/fine_meshes.h"
+#include "core/scene/shapes/shape_info.h"
 
 namespace restlab::mitsuba {
 namespace {
 
 constexpr uint64_t kMostMeshBytes = uint64_t(1) << 36;
 constexpr size_t kMostInstances = 1u << 24;
+
+// The shape of that name; a cylinder is open, as Mitsuba's. nullopt: there is none.
+std::optional<ShapeGeometry> analyticShape(const std::string& type) {
+  const ShapeInfo* info = type == "cone" ? nullptr : findShape(type);  // Mitsuba has no cone
+  if (info == nullptr) return {};
+  return ShapeGeometry{info, std::vector<float>(info->parameters.size(), 0.0f)};
+}
+
+// Squares are exact as triangles.
+bool isCurved(const std::string& type) { return type != "rectangle" && type != "cube"; }
 
 bool isMeshFile(const std::string& type) {
   return type == "obj" || type == "ply" || type == "serialized";
@@ -57,8 +68,10 @@ glm::dmat4 Shapes::placed(const Element& element, Parameters& p) {
 MeshGeometry Shapes::readMesh(const Element& element, const MeshKey& key) {
   const auto& [source, index, hasFaceNormals, isFlipped, flipsRows, hasTangents] = key;
   MeshGeometry mesh;
-  if (isAnalytic(element.type)) {
-    mesh = analyticShape(element.type);
+  if (const auto shape = analyticShape(element.type)) {
+    if (isCurved(element.type) && !isFlipped)
+      return makeShape(*shape->info, shape->values, element.type);
+    mesh = fineMesh(*shape);
   } else {
     if (lastFile_ != source) {
       lastBytes_.clear();
@@ -96,10 +109,11 @@ uint32_t Shapes::meshOf(const Element& element, Parameters& p, bool hasTangents,
     source = context_.files.find(name, p.place()).string();
     p.ignore({"max_smooth_angle", "collapse", "srgb"});
   }
-  if (isCurved(type) && !std::exchange(saysCurved_, true))
-    context_.report.note(
-        "curved shapes", element.place,
-        "spheres, disks and cylinders are meshes of 128 segments with exact normals");
+  const bool isRound = analyticShape(type) && isCurved(type);
+  if (isRound && isFlipped && !std::exchange(saysCurved_, true))
+    context_.report.note("curved shapes", element.place,
+                         "spheres, disks and cylinders with flip_normals are meshes of 128 "
+                         "segments with exact normals");
   const MeshKey key(source, index, hasFaceNormals, isFlipped, flipsRows, hasTangents);
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   context_.scene.geometries.push_back(readMesh(element, key));
@@ -108,7 +122,7 @@ uint32_t Shapes::meshOf(const Element& element, Parameters& p, bool hasTangents,
 
 void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
                       const std::string& name) {
-  if (!isAnalytic(element.type) && !isMeshFile(element.type)) {
+  if (!analyticShape(element.type) && !isMeshFile(element.type)) {
     const std::string text = fmt::format(
         "shape '{}' is unknown; one of obj, ply, serialized, rectangle, disk, sphere, cylinder, "
         "cube, "

@@ -15,9 +15,9 @@ ShapeInfo sphereShape() {
   };
   info.standIn = [](const std::vector<float>&) {
     return turnedGrid(32, 16, [](float u, float v) {
-      const double phi = 2.0 * std::numbers::pi * u, theta = std::numbers::pi * (1.0 - v);
-      return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                       std::cos(theta));
+      const double phi = 2.0 * std::numbers::pi * u, theta = std::numbers::pi * (1.0 - double(v));
+      const double ring = v == 0.0f || v == 1.0f ? 0.0 : std::sin(theta);
+      return glm::vec3(ring * std::cos(phi), ring * std::sin(phi), std::cos(theta));
     });
   };
   return info;

@@ -1,11 +1,12 @@
-#include "core/scene/mitsuba/analytic_shapes.h"
+#include "core/scene/shapes/fine_meshes.h"
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "core/scene/mitsuba/mesh_files.h"
+#include "core/scene/shapes/shape_info.h"
 
-namespace restlab::mitsuba {
+namespace restlab {
 namespace {
 
 constexpr uint32_t kSegments = 128;  // about the axis: off the circle by 0.03 % of the radius
@@ -54,19 +55,24 @@ MeshGeometry cubeMesh() {
   return mesh;
 }
 
-MeshGeometry diskMesh() {
-  MeshGeometry mesh;
+void addDisk(MeshGeometry& mesh, double z, double side) {
+  const glm::dvec3 normal(0.0, 0.0, side);
   for (uint32_t i = 0; i < kSegments; ++i) {
     const uint32_t first = uint32_t(mesh.positions.size());
-    addVertex(mesh, {0, 0, 0}, {0, 0, 1}, {0.0, (i + 0.5) / kSegments});
+    addVertex(mesh, {0, 0, z}, normal, {0.0, (i + 0.5) / kSegments});
     for (uint32_t k = i; k <= i + 1; ++k)
-      addVertex(mesh, glm::dvec3(around(k), 0.0), {0, 0, 1}, {1.0, double(k) / kSegments});
+      addVertex(mesh, glm::dvec3(around(k), z), normal, {1.0, double(k) / kSegments});
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
+}
+
+MeshGeometry diskMesh() {
+  MeshGeometry mesh;
+  addDisk(mesh, 0.0, 1.0);
   return mesh;
 }
 
-MeshGeometry cylinderMesh() {
+MeshGeometry cylinderMesh(bool hasEnds) {
   MeshGeometry mesh;
   for (uint32_t i = 0; i <= kSegments; ++i) {
     const glm::dvec2 d = around(i);
@@ -78,6 +84,25 @@ MeshGeometry cylinderMesh() {
     mesh.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
     mesh.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
   }
+  if (hasEnds) addDisk(mesh, 0.0, -1.0);
+  if (hasEnds) addDisk(mesh, 1.0, 1.0);
+  return mesh;
+}
+
+// The tip is a vertex for each segment, with the normal of its middle.
+MeshGeometry coneMesh(bool hasBase) {
+  MeshGeometry mesh;
+  const double slope = std::sqrt(0.5);
+  for (uint32_t i = 0; i < kSegments; ++i) {
+    const uint32_t first = uint32_t(mesh.positions.size());
+    for (uint32_t k = i; k <= i + 1; ++k)
+      addVertex(mesh, glm::dvec3(around(k), 0.0), glm::dvec3(around(k) * slope, slope),
+                {double(k) / kSegments, 1.0});
+    addVertex(mesh, {0, 0, 1}, glm::dvec3(around(i + 0.5) * slope, slope),
+              {(i + 0.5) / kSegments, 0.0});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  if (hasBase) addDisk(mesh, 0.0, -1.0);
   return mesh;
 }
 
@@ -106,23 +131,25 @@ MeshGeometry sphereMesh() {
 
 }  // namespace
 
-bool isAnalytic(const std::string& type) {
-  return type == "rectangle" || type == "cube" || isCurved(type);
-}
-
-bool isCurved(const std::string& type) {
-  return type == "sphere" || type == "disk" || type == "cylinder";
-}
-
-MeshGeometry analyticShape(const std::string& type) {
-  MeshGeometry mesh = type == "rectangle"  ? rectangleMesh()
-                      : type == "cube"     ? cubeMesh()
-                      : type == "disk"     ? diskMesh()
-                      : type == "cylinder" ? cylinderMesh()
-                                           : sphereMesh();
-  mesh.name = type;
-  completeNormals(mesh);  // turns faces outwards
+MeshGeometry fineMesh(const ShapeGeometry& shape) {
+  const std::string& kind = shape.info->name;
+  const auto isSet = [&] { return shape.values.at(0) > 0.0f; };
+  MeshGeometry mesh = kind == "rectangle"  ? rectangleMesh()
+                      : kind == "cube"     ? cubeMesh()
+                      : kind == "disk"     ? diskMesh()
+                      : kind == "cylinder" ? cylinderMesh(isSet())
+                      : kind == "cone"     ? coneMesh(isSet())
+                      : kind == "sphere"   ? sphereMesh()
+                                           : shape.info->standIn(shape.values);
+  mesh.name = kind;
+  if (mesh.normals.empty()) return mesh;
+  for (glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 a = mesh.positions[t.x];
+    const glm::vec3 face = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    const glm::vec3 n = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
+    if (glm::dot(face, n) < 0.0f) std::swap(t.y, t.z);
+  }
   return mesh;
 }
 
-}  // namespace restlab::mitsuba
+}  // namespace restlab
