@@ -282,8 +282,9 @@ Bsdfs::Surface Bsdfs::surfaceOf(const Element* bsdf, const std::optional<Texture
   if (a.isOneSided)
     context_.report.note(
         "one side", place,
-        "BSDFs without 'twosided' scatter light on both sides; Mitsuba draws their "
-        "backs black");
+        fmt::format("bsdf '{}' without 'twosided' scatters light on both sides; Mitsuba draws its "
+                    "back black",
+                    bsdf != nullptr ? bsdf->type : "diffuse"));
   if (a.isNull && emission)
     context_.report.warn("null lamp", place, "a lamp with bsdf 'null' lets no light pass here");
   SceneMaterial material;

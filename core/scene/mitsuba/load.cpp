@@ -53,6 +53,7 @@ void noteIntegrator(const Element& element, const Context& context) {
   std::string text =
       fmt::format("integrator '{}' is not read: --integrator chooses the method", element.type);
   if (depth >= 1) text += fmt::format("; max_depth {} is --max-bounces {}", depth, depth - 1);
+  if (depth < 0) text += "; its paths have no max_depth, those here have --max-bounces";
   context.report.note("integrator", element.place, text);
   if (p.boolean("hide_emitters", false))
     context.report.warn("hidden emitters", element.place,
