@@ -167,8 +167,8 @@ function(rl_add_kernel name kernel_file)
   set(source ${RL_GENERATED_DIR}/kernels/${name}.cpp)
   rl_write_kernel_source(${source} ${name} "${masks}" ${kernel_path} ${header_path} core/backend/cpu_trace.inl)
   target_sources(rl_kernels PRIVATE ${source})
-  # On the project's own hierarchy with the general mask alone: there to be compared, not to be fast.
-  if(NOT arg_NO_FEATURES)
+  # On the project's own hierarchy with the general mask alone: there to be compared by the tests, not to be fast.
+  if(NOT arg_NO_FEATURES AND RESTLAB_TESTS)
     set(source ${RL_GENERATED_DIR}/kernels/${name}_bvh.cpp)
     rl_write_kernel_source(${source} ${name} "M(bvh, ${RL_FEATURE_BIT_ALL}ull)" ${kernel_path} ${header_path}
                            core/geometry/trace_bvh.glsl)
@@ -234,6 +234,9 @@ function(rl_write_kernel_registry output)
       string(APPEND rows
              "      {\"${name}\", \"${mask_name}\", \"embree\", ${mask}ull, kernel_${name}_${mask_name}},\n")
     endforeach()
+    if(NOT RESTLAB_TESTS)
+      continue()
+    endif()
     set(bvh general)
     if(name IN_LIST tracing)
       set(bvh bvh)

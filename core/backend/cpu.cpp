@@ -64,6 +64,12 @@ class CpuBackend final : public Backend {
     if (rayTracing_ != "embree" && rayTracing_ != "bvh") {
       failUsage(fmt::format("--ray-tracing {}: the CPU backend knows embree and bvh", rayTracing_));
     }
+    if (rl::findCpuKernel("path", 0, rayTracing_.c_str()) == nullptr) {
+      failUsage(
+          fmt::format("--ray-tracing {}: its kernels for the CPU are built with the tests "
+                      "(./lab test, or cmake -DRESTLAB_TESTS=ON); embree works",
+                      rayTracing_));
+    }
     bind();
   }
 

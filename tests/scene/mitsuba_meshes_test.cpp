@@ -276,8 +276,9 @@ TEST_F(MitsubaMeshes, SpheresAndCylindersArePlaced) {
   EXPECT_NEAR(bounds[1].y, 4.0, 1e-6);
   EXPECT_NEAR(bounds[0].x, -0.25, 1e-3);
   for (const MeshInstance& instance : scene.instances) {
-    ASSERT_NE(scene.geometries.at(instance.geometry).shape, nullptr);
-    EXPECT_EQ(scene.geometries.at(instance.geometry).shape->info->name, instance.name);
+    const MeshGeometry& geometry = scene.geometries.at(instance.geometry);
+    ASSERT_NE(geometry.shape, nullptr);
+    EXPECT_EQ(geometry.shape->info->name, geometry.name);
   }
   EXPECT_FALSE(test::notes(scene, "meshes of 128 segments"));
   for (const test::WorldTriangle& t : test::worldTriangles(scene, "cylinder")) {

@@ -65,10 +65,15 @@ MeshGeometry turnedGrid(uint32_t columns, uint32_t rows,
       mesh.positions.push_back(at(float(x) / float(columns), float(y) / float(rows)));
   }
   const auto corner = [&](uint32_t x, uint32_t y) { return y * columns + x % columns; };
+  // A pole is many vertices in one place.
+  const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+    const glm::vec3 p = mesh.positions[a], q = mesh.positions[b], r = mesh.positions[c];
+    if (p != q && q != r && r != p) mesh.triangles.emplace_back(a, b, c);
+  };
   for (uint32_t y = 0; y < rows; ++y) {
     for (uint32_t x = 0; x < columns; ++x) {
-      mesh.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
-      mesh.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
+      add(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
+      add(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
     }
   }
   return mesh;
