@@ -178,7 +178,8 @@ struct Light {
   uint kind;
   vec3 e1;    // triangle edge; of a shape: half of its box; or direction of light travel (unit)
   float pmf;  // probability of being selected
-  vec3 e2;    // triangle edge; spot: angle scale and offset; point: attenuation
+  vec3 e2;    // triangle edge; of a flat shape: its normal (else 0); spot: angle scale and offset;
+              // point: attenuation
   float areaInverse;  // 1/m^2 of a triangle
   vec3 radiance;      // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
   uint instance;      // triangles and shapes only

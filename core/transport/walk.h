@@ -24,7 +24,7 @@ struct Walk {
   uint isScattered;    // 1: the ray travels, since the last surface, in a medium that scatters
   uint stretches;      // number of stretches in such media so far; collisions are no `bounces`
   vec3 ofMedium;       // factors of such a medium since the last surface
-  LightReceiver last;  // the last surface; only with RL_FEATURE_SCATTERING or _LIGHT_TREE
+  LightReceiver last;  // the last surface; with RL_FEATURE_SCATTERING, _LIGHT_TREE or shapes
   uint isAlive;        // 0: absorbed, or ended by Russian roulette
 };
 

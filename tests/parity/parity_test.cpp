@@ -204,10 +204,11 @@ INSTANTIATE_TEST_SUITE_P(, PathParity, testing::ValuesIn(kPathCases),
 
 TEST(EverythingScene, NeedsEveryFeature) {
   // Options of the render, not needs of a scene: compensated multiple scattering, choice of lamps.
-  // Closures and layers are under FeatureMaskParity.
+  // Closures and layers are under FeatureMaskParity, shapes a scene of their own.
   EXPECT_EQ(CompiledScene::build(makeEverythingScene())->features(),
-            rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_LAYERS |
-                                   rl::RL_FEATURE_MULTISCATTER | rl::RL_FEATURE_LIGHT_TREE));
+            rl::RL_FEATURE_ALL &
+                ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_SHAPES | rl::RL_FEATURE_LAYERS |
+                  rl::RL_FEATURE_MULTISCATTER | rl::RL_FEATURE_LIGHT_TREE));
 }
 
 }  // namespace

@@ -120,7 +120,10 @@ TEST_P(Shapes, TheFirstPointIsFound) {
     const glm::vec3 origin = i % 2 == 0 ? from : 3.0f * from;
     const glm::vec3 dir = glm::normalize(target - origin);
     const auto inside = [&](double t) {
-      return isInside(GetParam().info->name, glm::dvec3(origin) + t * glm::dvec3(dir));
+      const glm::dvec3 at = glm::dvec3(origin) + t * glm::dvec3(dir);
+      const bool is = isInside(GetParam().info->name, at);
+      EXPECT_EQ(GetParam().info->isInside(GetParam().values, at), is);
+      return is;
     };
     constexpr double kStep = 0.002;
     double low = 0.0, high = -1.0;
@@ -434,6 +437,63 @@ TEST(ShapeLights, IrradianceIsThatOfTheFormula) {
   const glm::dvec3 receiver(0.7, 0.2, -0.4), tilted = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
   expectIrradiance("rectangle", place, receiver, tilted,
                    polygonIrradiance(corners, receiver, tilted));
+}
+
+// Close to a lamp the drawn points lie within a thousandth of its radius.
+TEST(ShapeLights, ReceiversNearASphereAreLitRight) {
+  for (const double height : {1e-2, 1e-3, 1e-4, 2e-5, 1e-6}) {
+    const auto scene = placedShape(shapeNamed("sphere"), glm::dmat4(1.0), 1.0f);
+    Dialect<> d(scene);
+    const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 0.8, -0.4));
+    const glm::vec3 posW(-(1.0 + height) * up - scene->origin());
+    const double distance = glm::length(glm::dvec3(posW) + scene->origin());
+    const auto [mean, error] = irradianceOf(d, posW, glm::vec3(up));
+    EXPECT_NEAR(mean, kPi / (distance * distance), 5.0 * error + 0.003 * kPi) << height;
+  }
+}
+
+// A ray that passes the front of a half transparent ball may still be stopped by its back.
+TEST(ShapeAlpha, BothSidesDecide) {
+  builtin::SceneBuilder builder("veil");
+  rl::Material veil = builtin::lambert(glm::vec3(0.5f));
+  veil.alpha = 0.5f;
+  veil.flags |= rl::RL_MATERIAL_ALPHA_BLEND;
+  const uint32_t id = builder.addMaterial("veil", veil);
+  builder.place("ball", builder.addGeometry(makeShape(*findShape("sphere"), {}, "ball")), id,
+                glm::dmat4(1.0));
+  Dialect<> d(CompiledScene::build(builder.finish()));
+  Inputs inputs(7);
+  int passed = 0, first = 0;
+  constexpr int kRays = 20'000;
+  for (int i = 0; i < kRays; ++i) {
+    const glm::vec3 dir = inputs.direction();
+    const rl::Ray ray = rayOf(-4.0f * dir + 0.3f * inputs.direction(), dir);
+    rl::Hit hit{};
+    d->traceRay(ray, rl::RL_RAY_PATH, inputs.bits(), hit);
+    passed += hit.instance == rl::RL_INVALID ? 1 : 0;
+    first += hit.instance != rl::RL_INVALID && hit.t < 4.0f ? 1 : 0;
+    rl::Hit unused{};
+    rl::Ray shadow = ray;
+    shadow.tMax = 10.0f;
+    ASSERT_FLOAT_EQ(d->traceRay(shadow, rl::RL_RAY_SHADOW, 0, unused), 0.25f);
+  }
+  EXPECT_NEAR(double(first) / kRays, 0.5, 0.02);
+  EXPECT_NEAR(double(passed) / kRays, 0.25, 0.02);
+}
+
+// A camera between a ball and the triangles that stand in for it is in the ball.
+TEST(ShapeBodies, ReachToTheSurface) {
+  builtin::SceneBuilder builder("ball");
+  const uint32_t id = builder.addMaterial("glass", builtin::glass(0.0f, glm::vec3(1.0f)));
+  builder.place("ball", builder.addGeometry(makeShape(*findShape("sphere"), {}, "ball")), id,
+                glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+  const auto scene = CompiledScene::build(builder.finish());
+  Inputs inputs(8);
+  for (int i = 0; i < 200; ++i) {
+    const glm::vec3 n = inputs.direction();
+    EXPECT_NE(scene->bodiesAt(1.9999f * n - glm::vec3(scene->origin())).x, 0u);
+    EXPECT_EQ(scene->bodiesAt(2.0001f * n - glm::vec3(scene->origin())).x, 0u);
+  }
 }
 
 TEST(ShapeLights, DensityIsThatOfTheHit) {

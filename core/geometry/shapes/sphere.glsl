@@ -31,34 +31,34 @@ RL_FN ShapePoint spherePoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   return p;
 }
 
-// 1 - cos of the cone in which a point outside sees the sphere; 2: the point is inside or on it,
-// and the whole area is drawn from.
+// 1 - cos of the cone in which a point outside sees the sphere; 2: the point is inside, or so close
+// that float32 has no cone, and the whole area is drawn from.
 RL_FN float sphereCone(RL_IN(vec3) receiverL) {
   float d2 = dot(receiverL, receiverL);
-  if (!(d2 > 1.0f)) return 2.0f;
+  if (!(d2 > 1.00001f)) return 2.0f;
   float sin2 = 1.0f / d2;
   return sin2 / (1.0f + sqrt(1.0f - sin2));
 }
 
-// Uniform in the solid angle that the receiver sees (Pharr, Jakob and Humphreys 2023, 6.2.4).
+// Uniform in the solid angle that the receiver sees. The angle at the centre comes from the
+// distance to the surface, not from cosines: near the sphere it is too small for 1 - cos.
 RL_FN SurfaceId sphereDraw(RL_IN(Shape) shape, RL_IN(vec3) receiverL, RL_IN(vec2) u) {
   float cone = sphereCone(receiverL);
   vec2 around = rlCosSin2Pi(u.y);
   float below = cone * u.x;  // 1 - cos of the angle at the receiver, or about any axis
-  float sin2 = below * (2.0f - below);
+  float sine = sqrt(max(0.0f, below * (2.0f - below)));
   SurfaceId id = surfaceIdNone();
   id.primitive = 0u;
-  vec3 n;
+  vec3 n = vec3(around.x * sine, around.y * sine, 1.0f - below);
   if (cone < 2.0f) {
     float distance = sqrt(dot(receiverL, receiverL));
-    float cosine =
-        min(sin2 * distance + (1.0f - below) * sqrt(max(0.0f, 1.0f - sin2 * distance * distance)),
-            1.0f);
-    float sine = sqrt(max(0.0f, 1.0f - cosine * cosine));
-    n = frameToWorld(receiverL * (1.0f / distance), vec3(around.x * sine, around.y * sine, cosine));
-  } else {
-    float sine = sqrt(max(0.0f, sin2));
-    n = vec3(around.x * sine, around.y * sine, 1.0f - below);
+    float across = distance * sine;
+    float toSurface = (distance - 1.0f) * (distance + 1.0f) /
+                      (distance * (1.0f - below) + sqrt(max(0.0f, 1.0f - across * across)));
+    float atCentre = min(toSurface * sine, 1.0f);
+    n = frameToWorld(receiverL * (1.0f / distance),
+                     vec3(around.x * atCentre, around.y * atCentre,
+                          sqrt(max(0.0f, 1.0f - atCentre * atCentre))));
   }
   id.bary = packOctahedron(n) * 0.5f + vec2(0.5f, 0.5f);
   return id;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/shapes/shape_info.h"
 #include "core/transport/walk.h"
 
 namespace restlab {
@@ -27,10 +28,17 @@ glm::dvec3 toWorld(const MeshInstance& instance, const glm::vec3& p) {
 BodyBox boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
   BodyBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
               glm::dvec3(-std::numeric_limits<double>::infinity())};
-  for (const glm::vec3& p : mesh.positions) {
+  const auto add = [&](const glm::vec3& p) {
     const glm::dvec3 w = toWorld(instance, p);
     box.low = glm::min(box.low, w);
     box.high = glm::max(box.high, w);
+  };
+  if (mesh.shape != nullptr) {
+    const std::array<glm::vec3, 2> own = mesh.shape->info->box(mesh.shape->values);
+    for (size_t corner = 0; corner < 8; ++corner)
+      add({own[corner & 1].x, own[corner >> 1 & 1].y, own[corner >> 2].z});
+  } else {
+    for (const glm::vec3& p : mesh.positions) add(p);
   }
   const glm::dvec3 far = glm::max(glm::abs(box.low), glm::abs(box.high));
   const double margin = 1e-5 * std::max({far.x, far.y, far.z});
@@ -74,6 +82,12 @@ int leavesOf(const MeshGeometry& mesh, const MeshInstance& instance, const glm::
 
 // Counts the shells of the mesh around the point: bodies of one mesh may overlap.
 int shellsAround(const MeshGeometry& mesh, const MeshInstance& instance, const glm::dvec3& posW) {
+  if (mesh.shape != nullptr) {
+    const glm::dvec4 posL = glm::inverse(instance.objectToWorld) * glm::dvec4(posW, 1.0);
+    const ShapeInfo& info = *mesh.shape->info;
+    if (!info.isClosed(mesh.shape->values)) return 0;
+    return info.isInside(mesh.shape->values, glm::dvec3(posL)) ? 1 : 0;
+  }
   // Directions along which no modeller aligns edges; the median of the three answers counts.
   constexpr std::array<glm::dvec3, 3> kDirs{glm::dvec3{0.5773, 0.2113, 0.7887},
                                             glm::dvec3{-0.3141, 0.8347, -0.4523},

@@ -187,6 +187,10 @@ bool addShape(const LightTableInput& in, const rl::Instance& inst, uint32_t inst
   light.e1 = {glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow0)), half),
               glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow1)), half),
               glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow2)), half)};
+  if (standIn.shape->info->isFlat) {
+    const glm::dvec3 normal(inst.worldToObjectRow2);  // of z, by the inverse transpose
+    light.e2 = glm::vec3(normal / glm::length(normal));
+  }
   light.radiance = material.data.emission * material.lightFactor;
   light.instance = instanceIndex;
   double area = 0.0;

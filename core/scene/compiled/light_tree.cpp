@@ -90,7 +90,10 @@ Bounds boundsOf(const rl::Light& light) {
     if ((light.flags & rl::RL_LIGHT_SHAPE) != 0) {
       b.low = p - e1;
       b.high = p + e1;
-      b.cone.spread = kPi;
+      const bool isFlat = light.e2 != glm::vec3(0.0f);
+      const bool isOneSided = (light.flags & rl::RL_MATERIAL_DOUBLE_SIDED) == 0;
+      if (isFlat) b.cone.axis = glm::dvec3(light.e2);
+      b.cone.spread = isFlat && isOneSided ? 0.0 : kPi;
       b.cone.beyond = 0.5 * kPi;
       return b;
     }

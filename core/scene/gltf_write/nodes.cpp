@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scene/gltf_write/document.h"
+#include "core/scene/mitsuba/mesh_files.h"
 #include "core/scene/shapes/fine_meshes.h"
 
 namespace restlab::gltf_write {
@@ -61,7 +62,8 @@ void addInstances(const Scene& scene, Output& output) {
     const MeshGeometry& geometry = scene.geometries.at(instance.geometry);
     json& primitive = primitives.at(instance.geometry);
     if (primitive.is_null() && geometry.shape != nullptr) {
-      const MeshGeometry fine = fineMesh(*geometry.shape);
+      MeshGeometry fine = fineMesh(*geometry.shape);
+      mitsuba::addTangents(fine);  // a shape's bitangent is at the left of u
       primitive = {{"attributes", attributesOf(fine, output)},
                    {"indices", accessorOf(fine.triangles, "SCALAR", kUint, output)}};
     } else if (primitive.is_null()) {

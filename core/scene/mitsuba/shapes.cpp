@@ -161,6 +161,16 @@ void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
     for (int row = 0; row < 4; ++row)
       if (!(std::abs(toWorld[column][row]) <= 3e38))
         context_.report.fail(element.place, "its transform to the world is not finite");
+  if (context_.scene.geometries[mesh].shape != nullptr) {
+    constexpr double kLeast = 1e-9, kMost = 1e9;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = glm::length(glm::dvec3(toWorld[axis]));
+      if (size < kLeast || size > kMost)
+        context_.report.fail(element.place,
+                             fmt::format("its size along an axis is {:g}; {:g} to {:g} expected",
+                                         size, kLeast, kMost));
+    }
+  }
   context_.scene.instances.push_back({oneLine(name), mesh, surface.material, toWorld});
 }
 

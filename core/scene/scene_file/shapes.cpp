@@ -24,14 +24,15 @@ const ShapeInfo& readKind(const ConfigTable& table) {
 
 // Scales, then turns about an axis, then moves.
 glm::dmat4 readTransform(const ConfigTable& table) {
-  constexpr double kMost = 1e9;
+  constexpr double kMost = 1e9, kLeastScale = 1e-9;
   const bool isUniform = !table.has("scale") || table.getTexts("scale").size() == 1;
   const std::vector<double> scale = table.getNumbers(
       "scale", {1.0, 1.0, 1.0}, isUniform && table.has("scale") ? 1 : 3, -kMost, kMost);
   const glm::dvec3 factors =
       scale.size() == 1 ? glm::dvec3(scale[0]) : glm::dvec3(scale[0], scale[1], scale[2]);
-  if (factors.x * factors.y * factors.z == 0.0)
-    table.fail("scale", "'scale' has a 0: the shape would have no inside and no normal");
+  const glm::dvec3 size = glm::abs(factors);
+  if (std::min({size.x, size.y, size.z}) < kLeastScale)
+    table.fail("scale", fmt::format("'scale' is below {:g} along an axis", kLeastScale));
   const std::vector<double> turn =
       table.getNumbers("rotate", {0.0, 0.0, 1.0, 0.0}, 4, -kMost, kMost);
   const glm::dvec3 axis(turn[0], turn[1], turn[2]);
@@ -73,7 +74,9 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
       table.getString("name", fmt::format("{} {}", info.name, scene.instances.size()));
   std::vector<float> values;
   for (const ShapeParameter& p : info.parameters)
-    values.push_back(float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+    values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback), int64_t(p.lo),
+                                                        int64_t(p.hi)))
+                               : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
   const glm::dmat4 toWorld = readTransform(table);
   SceneMaterial material = readMaterial(table, materials, scene, name);
   constexpr double kBrightest = 1e12;

@@ -8,9 +8,12 @@ namespace restlab {
 ShapeInfo coneShape() {
   ShapeInfo info;
   info.summary = "the cone about z from a circle of radius 1 at z = 0 to its tip at z = 1";
-  info.parameters = {{"base", 1.0, 0.0, 1.0, "1: closed, 0: the side alone"}};
+  info.parameters = {{"base", 1.0, 0.0, 1.0, "1: closed, 0: the side alone", true}};
   info.isConvex = true;
   info.isClosed = [](const std::vector<float>& values) { return values[0] > 0.0f; };
+  info.isInside = [](const std::vector<float>&, const glm::dvec3& p) {
+    return p.z > 0.0 && std::sqrt(p.x * p.x + p.y * p.y) < 1.0 - p.z;
+  };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f)};
   };

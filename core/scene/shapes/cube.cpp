@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/scene/shapes/shape_info.h"
 
 namespace restlab {
@@ -7,6 +10,9 @@ ShapeInfo cubeShape() {
   info.summary = "the cube from (-1, -1, -1) to (1, 1, 1)";
   info.isConvex = true;
   info.isClosed = [](const std::vector<float>&) { return true; };
+  info.isInside = [](const std::vector<float>&, const glm::dvec3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1.0;
+  };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f), glm::vec3(1.0f)};
   };

@@ -8,9 +8,12 @@ namespace restlab {
 ShapeInfo cylinderShape() {
   ShapeInfo info;
   info.summary = "the cylinder of radius 1 about z, from z = 0 to z = 1";
-  info.parameters = {{"ends", 1.0, 0.0, 1.0, "1: closed, 0: the side alone"}};
+  info.parameters = {{"ends", 1.0, 0.0, 1.0, "1: closed, 0: the side alone", true}};
   info.isConvex = true;
   info.isClosed = [](const std::vector<float>& values) { return values[0] > 0.0f; };
+  info.isInside = [](const std::vector<float>&, const glm::dvec3& p) {
+    return p.x * p.x + p.y * p.y < 1.0 && p.z > 0.0 && p.z < 1.0;
+  };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f)};
   };

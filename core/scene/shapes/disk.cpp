@@ -6,6 +6,7 @@ ShapeInfo diskShape() {
   ShapeInfo info;
   info.summary = "the unit disk in the plane z = 0, outside on +z";
   info.isConvex = true;
+  info.isFlat = true;
   info.isClosed = [](const std::vector<float>&) { return false; };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f, 1.0f, 0.0f)};

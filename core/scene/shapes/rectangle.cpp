@@ -6,6 +6,7 @@ ShapeInfo rectangleShape() {
   ShapeInfo info;
   info.summary = "the square from (-1, -1) to (1, 1) in the plane z = 0, outside on +z";
   info.isConvex = true;
+  info.isFlat = true;
   info.isClosed = [](const std::vector<float>&) { return false; };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f, 1.0f, 0.0f)};

@@ -18,6 +18,7 @@ struct ShapeParameter {
   std::string name;
   double fallback = 0.0, lo = 0.0, hi = 0.0;  // inclusive
   std::string help;
+  bool isWhole = false;  // takes whole numbers alone
 };
 
 // One kind of shapeRegistry(). Functions take a value for each parameter, within its range.
@@ -30,6 +31,9 @@ struct ShapeInfo {
   bool isConvex = false;                   // a ray that leaves to the outside never meets it again
   // Returns whether it has an inside that no ray leaves unseen.
   std::function<bool(const std::vector<float>& values)> isClosed;
+  // Returns whether a point of its own space is inside; called of closed ones alone.
+  std::function<bool(const std::vector<float>& values, const glm::dvec3& posL)> isInside;
+  bool isFlat = false;  // in the plane z = 0, outside on +z
   // Box around the shape in its own space (low, high).
   std::function<std::array<glm::vec3, 2>(const std::vector<float>& values)> box;
   // Triangles near the surface, counter-clockwise seen from its outside: for outlines, areas,

@@ -10,6 +10,9 @@ ShapeInfo sphereShape() {
   info.summary = "the unit sphere, poles on z";
   info.isConvex = true;
   info.isClosed = [](const std::vector<float>&) { return true; };
+  info.isInside = [](const std::vector<float>&, const glm::dvec3& p) {
+    return glm::dot(p, p) < 1.0;
+  };
   info.box = [](const std::vector<float>&) {
     return std::array{glm::vec3(-1.0f), glm::vec3(1.0f)};
   };
