@@ -11,7 +11,8 @@ namespace restlab {
 
 namespace {
 
-// As the hierarchy bounds instances of meshes: |M| |p| + |T| bounds every intermediate.
+// Bounds a box under the transform of an instance, moved out by the rounding of a ray's transform:
+// |M| |p| + |T| bounds every intermediate.
 RTCBounds boxOf(const std::array<glm::vec3, 2>& local, const rl::Instance& inst) {
   glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
   const glm::vec4 rows[3] = {inst.objectToWorldRow0, inst.objectToWorldRow1,
