@@ -21,7 +21,8 @@ struct ShapeInfo;
 // A shape of core/scene/shapes/shape_info.h.
 struct ShapeGeometry {
   const ShapeInfo* info = nullptr;
-  std::vector<float> values;  // one for each of its parameters
+  std::vector<float> values;      // one for each of its parameters
+  std::vector<uint32_t> words{};  // behind them for kernels: control points, programs
 };
 
 // One triangle mesh with one material (a glTF mesh primitive). Attributes are per vertex; empty

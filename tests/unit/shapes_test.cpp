@@ -22,25 +22,28 @@ namespace {
 struct ShapeCase {
   std::string name;
   const ShapeInfo* info;
-  std::vector<float> values;
+  ShapeGeometry shape;
   bool isClosed;
 };
 
 std::vector<ShapeCase> shapeCases() {
   std::vector<ShapeCase> cases;
+  const auto add = [&](const std::string& name, ShapeGeometry shape) {
+    cases.push_back({name, shape.info, shape, shape.info->isClosed(shape)});
+  };
   for (const ShapeInfo& info : shapeRegistry()) {
     std::vector<float> values;
     for (const ShapeParameter& p : info.parameters) values.push_back(float(p.fallback));
-    cases.push_back({info.name, &info, values, info.isClosed(values)});
-    if (info.name == "cylinder" || info.name == "cone")
-      cases.push_back({info.name + "_open", &info, {0.0f}, false});
+    if (!info.read) add(info.name, {&info, values});
+    for (const ShapeExample& example : info.examples)
+      add(example.name, {&info, example.values, example.words});
   }
   return cases;
 }
 
 // A context with the parameters of one shape, in its own space.
 struct LocalShape {
-  explicit LocalShape(const ShapeCase& of) : words(shapeWords({of.info, of.values})) {
+  explicit LocalShape(const ShapeCase& of) : words(shapeWords(of.shape)) {
     shape.kind = of.info->kind;
     shape.firstWord = 0;
     d.scene.shapeWords.data = words.data();
@@ -71,7 +74,7 @@ class Shapes : public testing::TestWithParam<ShapeCase> {};
 TEST_P(Shapes, ThePointOfAnIdLiesOnTheRay) {
   LocalShape local(GetParam());
   Inputs inputs(1);
-  const auto box = GetParam().info->box(GetParam().values);
+  const auto box = GetParam().info->box(GetParam().shape);
   int hits = 0;
   for (int i = 0; i < 100'000; ++i) {
     const glm::vec3 u(inputs.uniform(), inputs.uniform(), inputs.uniform());
@@ -111,7 +114,7 @@ TEST_P(Shapes, TheFirstPointIsFound) {
   Inputs inputs(2);
   int crossed = 0;
   for (int i = 0; i < 4000; ++i) {
-    const auto box = GetParam().info->box(GetParam().values);
+    const auto box = GetParam().info->box(GetParam().shape);
     const auto within = [&] {
       const glm::vec3 u(inputs.uniform(), inputs.uniform(), inputs.uniform());
       return glm::mix(box[0], box[1], u);
@@ -122,7 +125,7 @@ TEST_P(Shapes, TheFirstPointIsFound) {
     const auto inside = [&](double t) {
       const glm::dvec3 at = glm::dvec3(origin) + t * glm::dvec3(dir);
       const bool is = isInside(GetParam().info->name, at);
-      EXPECT_EQ(GetParam().info->isInside(GetParam().values, at), is);
+      EXPECT_EQ(GetParam().info->isInside(GetParam().shape, at), is);
       return is;
     };
     constexpr double kStep = 0.002;
@@ -153,7 +156,7 @@ TEST_P(Shapes, TheFirstPointIsFound) {
 
 TEST_P(Shapes, TheStandInFacesOutside) {
   LocalShape local(GetParam());
-  const MeshGeometry mesh = GetParam().info->standIn(GetParam().values);
+  const MeshGeometry mesh = GetParam().info->standIn(GetParam().shape);
   int compared = 0;
   double area = 0.0;
   for (const glm::uvec3& t : mesh.triangles) {
@@ -179,7 +182,7 @@ TEST_P(Shapes, TheStandInFacesOutside) {
 
 TEST_P(Shapes, TheFineMeshHasItsNormalsAndTextureCoordinates) {
   LocalShape local(GetParam());
-  const MeshGeometry mesh = fineMesh({GetParam().info, GetParam().values});
+  const MeshGeometry mesh = fineMesh(GetParam().shape);
   int compared = 0;
   for (const glm::uvec3& t : mesh.triangles) {
     const auto mean = [&](const auto& of) { return (of[t.x] + of[t.y] + of[t.z]) / 3.0f; };
@@ -233,7 +236,7 @@ void expectDrawsFit(const ShapeCase& of, const glm::vec3& receiver, const std::s
       }
     }
     const bool exists = part == 0 || of.info->name == "cube" ||
-                        (!of.values.empty() && of.values[0] > 0.0f &&
+                        (!of.shape.values.empty() && of.shape.values[0] > 0.0f &&
                          part <= (of.info->name == "cylinder" ? 2u : 1u));
     if (!exists) break;
     firstOf[part] = first;
@@ -285,7 +288,7 @@ std::shared_ptr<const CompiledScene> placedShape(const ShapeCase& of, const glm:
   rl::Material material = builtin::lambert(glm::vec3(0.5f));
   material.emission = glm::vec3(emission);
   const uint32_t id = builder.addMaterial("grey", material);
-  builder.place("it", builder.addGeometry(makeShape(*of.info, of.values, "it")), id, toWorld);
+  builder.place("it", builder.addGeometry(makeShape(of.shape, "it")), id, toWorld);
   return CompiledScene::build(builder.finish());
 }
 

@@ -51,6 +51,7 @@ void hashGeometry(Hasher& hash, const MeshGeometry& g) {
   if (g.shape == nullptr) return;
   hash.text(g.shape->info->name);
   hash.array(g.shape->values);
+  hash.array(g.shape->words);
 }
 
 void hashTextures(Hasher& hash, const Scene& scene) {

@@ -34,7 +34,7 @@ BodyBox boxOf(const MeshGeometry& mesh, const MeshInstance& instance) {
     box.high = glm::max(box.high, w);
   };
   if (mesh.shape != nullptr) {
-    const std::array<glm::vec3, 2> own = mesh.shape->info->box(mesh.shape->values);
+    const std::array<glm::vec3, 2> own = mesh.shape->info->box(*mesh.shape);
     for (size_t corner = 0; corner < 8; ++corner)
       add({own[corner & 1].x, own[corner >> 1 & 1].y, own[corner >> 2].z});
   } else {
@@ -85,8 +85,8 @@ int shellsAround(const MeshGeometry& mesh, const MeshInstance& instance, const g
   if (mesh.shape != nullptr) {
     const glm::dvec4 posL = glm::inverse(instance.objectToWorld) * glm::dvec4(posW, 1.0);
     const ShapeInfo& info = *mesh.shape->info;
-    if (!info.isClosed(mesh.shape->values)) return 0;
-    return info.isInside(mesh.shape->values, glm::dvec3(posL)) ? 1 : 0;
+    if (!info.isClosed(*mesh.shape)) return 0;
+    return info.isInside(*mesh.shape, glm::dvec3(posL)) ? 1 : 0;
   }
   // Directions along which no modeller aligns edges; the median of the three answers counts.
   constexpr std::array<glm::dvec3, 3> kDirs{glm::dvec3{0.5773, 0.2113, 0.7887},

@@ -181,7 +181,7 @@ bool addShape(const LightTableInput& in, const rl::Instance& inst, uint32_t inst
   rl::Light light{};
   light.kind = rl::RL_LIGHT_AREA;
   light.flags = rl::RL_LIGHT_SHAPE | (material.data.flags & rl::RL_MATERIAL_DOUBLE_SIDED);
-  const std::array<glm::vec3, 2> box = standIn.shape->info->box(standIn.shape->values);
+  const std::array<glm::vec3, 2> box = standIn.shape->info->box(*standIn.shape);
   light.p0 = toWorld(inst, 0.5f * (box[0] + box[1]));
   const glm::vec3 half = 0.5f * (box[1] - box[0]);
   light.e1 = {glm::dot(glm::abs(glm::vec3(inst.objectToWorldRow0)), half),

@@ -63,7 +63,7 @@ std::vector<RTCBounds> boxesOfShapes(const Scene& scene,
   for (size_t i = 0; i < instances.size(); ++i) {
     if (geometries[instances[i].geometry].shape == rl::RL_SHAPE_TRIANGLES) continue;
     const ShapeGeometry& shape = *scene.geometries[scene.instances[i].geometry].shape;
-    boxes[i] = boxOf(shape.info->box(shape.values), instances[i]);
+    boxes[i] = boxOf(shape.info->box(shape), instances[i]);
   }
   return boxes;
 }

@@ -69,8 +69,7 @@ MeshGeometry Shapes::readMesh(const Element& element, const MeshKey& key) {
   const auto& [source, index, hasFaceNormals, isFlipped, flipsRows, hasTangents] = key;
   MeshGeometry mesh;
   if (const auto shape = analyticShape(element.type)) {
-    if (isCurved(element.type) && !isFlipped)
-      return makeShape(*shape->info, shape->values, element.type);
+    if (isCurved(element.type) && !isFlipped) return makeShape(*shape, element.type);
     mesh = fineMesh(*shape);
   } else {
     if (lastFile_ != source) {

@@ -72,11 +72,12 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
   const ShapeInfo& info = readKind(table);
   const std::string name =
       table.getString("name", fmt::format("{} {}", info.name, scene.instances.size()));
-  std::vector<float> values;
+  ShapeGeometry shape{&info, {}};
   for (const ShapeParameter& p : info.parameters)
-    values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback), int64_t(p.lo),
-                                                        int64_t(p.hi)))
-                               : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+    shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
+                                                              int64_t(p.lo), int64_t(p.hi)))
+                                     : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+  if (info.read) info.read(table, shape);
   const glm::dmat4 toWorld = readTransform(table);
   SceneMaterial material = readMaterial(table, materials, scene, name);
   constexpr double kBrightest = 1e12;
@@ -97,7 +98,7 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
   instance.geometry = static_cast<uint32_t>(scene.geometries.size());
   instance.material = static_cast<uint32_t>(scene.materials.size());
   instance.objectToWorld = toWorld;
-  scene.geometries.push_back(makeShape(info, values, name));
+  scene.geometries.push_back(makeShape(std::move(shape), name));
   scene.materials.push_back(std::move(material));
   scene.instances.push_back(std::move(instance));
 }

@@ -9,14 +9,12 @@ ShapeInfo cubeShape() {
   ShapeInfo info;
   info.summary = "the cube from (-1, -1, -1) to (1, 1, 1)";
   info.isConvex = true;
-  info.isClosed = [](const std::vector<float>&) { return true; };
-  info.isInside = [](const std::vector<float>&, const glm::dvec3& p) {
+  info.isClosed = [](const ShapeGeometry&) { return true; };
+  info.isInside = [](const ShapeGeometry&, const glm::dvec3& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1.0;
   };
-  info.box = [](const std::vector<float>&) {
-    return std::array{glm::vec3(-1.0f), glm::vec3(1.0f)};
-  };
-  info.standIn = [](const std::vector<float>&) {
+  info.box = [](const ShapeGeometry&) { return std::array{glm::vec3(-1.0f), glm::vec3(1.0f)}; };
+  info.standIn = [](const ShapeGeometry&) {
     MeshGeometry mesh;
     for (int corner = 0; corner < 8; ++corner)
       mesh.positions.emplace_back((corner & 1) != 0 ? 1.0f : -1.0f,

@@ -7,11 +7,11 @@ ShapeInfo diskShape() {
   info.summary = "the unit disk in the plane z = 0, outside on +z";
   info.isConvex = true;
   info.isFlat = true;
-  info.isClosed = [](const std::vector<float>&) { return false; };
-  info.box = [](const std::vector<float>&) {
+  info.isClosed = [](const ShapeGeometry&) { return false; };
+  info.box = [](const ShapeGeometry&) {
     return std::array{glm::vec3(-1.0f, -1.0f, 0.0f), glm::vec3(1.0f, 1.0f, 0.0f)};
   };
-  info.standIn = [](const std::vector<float>&) {
+  info.standIn = [](const ShapeGeometry&) {
     MeshGeometry mesh;
     addDisk(mesh, 0.0f, false, 64);
     return mesh;

@@ -140,7 +140,7 @@ MeshGeometry fineMesh(const ShapeGeometry& shape) {
                       : kind == "cylinder" ? cylinderMesh(isSet())
                       : kind == "cone"     ? coneMesh(isSet())
                       : kind == "sphere"   ? sphereMesh()
-                                           : shape.info->standIn(shape.values);
+                                           : shape.info->standIn(shape);
   mesh.name = kind;
   if (mesh.normals.empty()) return mesh;
   for (glm::uvec3& t : mesh.triangles) {

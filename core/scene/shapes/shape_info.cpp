@@ -42,18 +42,19 @@ const ShapeInfo* findShape(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-MeshGeometry makeShape(const ShapeInfo& info, const std::vector<float>& values,
-                       const std::string& name) {
-  MeshGeometry mesh = info.standIn(values);
+MeshGeometry makeShape(ShapeGeometry shape, const std::string& name) {
+  MeshGeometry mesh = shape.info->standIn(shape);
   mesh.name = name;
-  mesh.shape = std::make_shared<const ShapeGeometry>(ShapeGeometry{&info, values});
+  mesh.shape = std::make_shared<const ShapeGeometry>(std::move(shape));
   return mesh;
 }
 
 std::vector<glm::uvec4> shapeWords(const ShapeGeometry& shape) {
-  std::vector<glm::uvec4> words((shape.values.size() + 3) / 4, glm::uvec4(0u));
+  const size_t first = (shape.values.size() + 3) / 4;
+  std::vector<glm::uvec4> words(first + (shape.words.size() + 3) / 4, glm::uvec4(0u));
   for (size_t i = 0; i < shape.values.size(); ++i)
     words[i / 4][int(i % 4)] = std::bit_cast<uint32_t>(shape.values[i]);
+  for (size_t i = 0; i < shape.words.size(); ++i) words[first + i / 4][int(i % 4)] = shape.words[i];
   return words;
 }
 

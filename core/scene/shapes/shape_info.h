@@ -14,6 +14,8 @@
 
 namespace restlab {
 
+class ConfigTable;
+
 struct ShapeParameter {
   std::string name;
   double fallback = 0.0, lo = 0.0, hi = 0.0;  // inclusive
@@ -21,7 +23,15 @@ struct ShapeParameter {
   bool isWhole = false;  // takes whole numbers alone
 };
 
-// One kind of shapeRegistry(). Functions take a value for each parameter, within its range.
+// A shape of a kind beside the one of default parameters, for tests and pictures.
+struct ShapeExample {
+  std::string name;
+  std::vector<float> values;
+  std::vector<uint32_t> words{};
+};
+
+// One kind of shapeRegistry(). Functions take a shape of that kind with a value for each parameter,
+// within its range.
 struct ShapeInfo {
   std::string name;
   std::string summary;
@@ -30,15 +40,21 @@ struct ShapeInfo {
   std::vector<ShapeParameter> parameters;  // words of a kernel in this order, four a uvec4
   bool isConvex = false;                   // a ray that leaves to the outside never meets it again
   // Returns whether it has an inside that no ray leaves unseen.
-  std::function<bool(const std::vector<float>& values)> isClosed;
+  std::function<bool(const ShapeGeometry& shape)> isClosed;
   // Returns whether a point of its own space is inside; called of closed ones alone.
-  std::function<bool(const std::vector<float>& values, const glm::dvec3& posL)> isInside;
+  std::function<bool(const ShapeGeometry& shape, const glm::dvec3& posL)> isInside;
   bool isFlat = false;  // in the plane z = 0, outside on +z
+  // Light samples find its points. Otherwise lamps of the kind are found by scattering alone.
+  bool hasDraws = true;
+  std::vector<ShapeExample> examples;  // of a kind that reads more than parameters: at least one
   // Box around the shape in its own space (low, high).
-  std::function<std::array<glm::vec3, 2>(const std::vector<float>& values)> box;
+  std::function<std::array<glm::vec3, 2>(const ShapeGeometry& shape)> box;
   // Triangles near the surface, counter-clockwise seen from its outside: for outlines, areas,
   // bounds and tests of what is inside.
-  std::function<MeshGeometry(const std::vector<float>& values)> standIn;
+  std::function<MeshGeometry(const ShapeGeometry& shape)> standIn;
+  // Reads the keys of a [[shape]] that are not parameters, into ShapeGeometry::words. Throws Error
+  // (badInput). Not set: there are none.
+  std::function<void(const ConfigTable& table, ShapeGeometry& shape)> read{};
 };
 
 // In the order of shapes.list.
@@ -46,10 +62,9 @@ const std::vector<ShapeInfo>& shapeRegistry();
 // nullptr if there is none.
 const ShapeInfo* findShape(const std::string& name);
 
-// A geometry of that shape with the stand-in as its triangles; values as ShapeInfo::parameters.
-MeshGeometry makeShape(const ShapeInfo& info, const std::vector<float>& values,
-                       const std::string& name);
-// Parameters as uvec4s that kernels read.
+// A geometry of that shape with the stand-in as its triangles.
+MeshGeometry makeShape(ShapeGeometry shape, const std::string& name);
+// Parameters, and behind them the words, as uvec4s that kernels read: both begin with a uvec4.
 std::vector<glm::uvec4> shapeWords(const ShapeGeometry& shape);
 
 // Grid of columns x rows cells over at(u, v), u and v in [0, 1]; counter-clockwise seen from where
