@@ -156,13 +156,15 @@ struct Scene {
 // Error (badInput) with one line.
 Scene loadGltf(const std::filesystem::path& file, const std::optional<std::string>& variant = {});
 
-// Numeric parameter in the name of a built-in scene, "furnace?albedo=0.9"
+// Parameter in the name of a built-in scene, "furnace?albedo=0.9"
 // (core/scene/builtin/name.h).
 struct SceneParameter {
   std::string name;
   std::optional<double> fallback;  // absent: `summary` says what applies if not given
   double lo = 0.0, hi = 0.0;       // inclusive
   std::string summary;
+  // Names of the values 0, 1, 2, ...: the only ones that it takes. Empty: it takes numbers.
+  std::vector<std::string> choices{};
 };
 
 // Makes a built-in scene; the name is one of builtinSceneNames(), with or without parameters behind
