@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tests/unit/constants.h"
+#include "tests/unit/goodness.h"
 #include "tests/unit/shape_cases.h"
 
 namespace restlab::unit {
@@ -140,6 +141,49 @@ TEST(ShapeLights, IrradianceIsThatOfTheFormula) {
                    polygonIrradiance(corners, receiver, tilted));
 }
 
+// Solid angle of [x0, x1] x [y0, y1] at a height z above the origin, steradians.
+double rectangleSolidAngle(double x0, double x1, double y0, double y1, double z) {
+  const auto corner = [z](double x, double y) {
+    return std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
+  };
+  return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
+}
+
+// From a thousandth of its size to where it is small.
+TEST(ShapeLights, RectanglesAreDrawnBySolidAngle) {
+  const ShapeCase& of = shapeNamed("rectangle");
+  LocalShape local(of);
+  constexpr int kCells = 8, kDraws = 400'000;
+  Inputs inputs(13);
+  for (const glm::vec3& receiver :
+       {glm::vec3(0.2f, -0.3f, 0.0011f), glm::vec3(-0.99f, 0.999f, 0.003f),
+        glm::vec3(0.7f, 0.9f, -0.02f), glm::vec3(1.01f, 0.5f, 0.05f), glm::vec3(0.0f, 0.0f, 0.3f),
+        glm::vec3(2.0f, -3.0f, 1.0f), glm::vec3(-0.4f, 0.1f, -6.0f)}) {
+    const double z = std::abs(double(receiver.z));
+    const auto angleOf = [&](double x0, double x1, double y0, double y1) {
+      const double x = receiver.x, y = receiver.y;
+      return rectangleSolidAngle(x0 - x, x1 - x, y0 - y, y1 - y, z);
+    };
+    const double whole = angleOf(-1.0, 1.0, -1.0, 1.0);
+    std::vector<double> expected;
+    for (int i = 0; i < kCells * kCells; ++i) {
+      const double x = 2.0 * (i % kCells) / kCells - 1.0, y = 2.0 * (i / kCells) / kCells - 1.0;
+      expected.push_back(angleOf(x, x + 2.0 / kCells, y, y + 2.0 / kCells) / whole);
+    }
+    std::vector<uint64_t> counts(expected.size(), 0);
+    for (int i = 0; i < kDraws; ++i) {
+      const rl::SurfaceId id = local.d->shapeDraw(local.shape, receiver, inputs.square());
+      const auto cell = [](float v) { return std::clamp(int(v * kCells), 0, kCells - 1); };
+      ++counts[size_t(cell(id.bary.y)) * kCells + size_t(cell(id.bary.x))];
+      const rl::ShapePoint p = local.d->shapePoint(local.shape, id);
+      const double distance = glm::length(glm::dvec3(p.posL) - glm::dvec3(receiver));
+      const double density = z / (distance * distance * distance * whole);
+      ASSERT_NEAR(local.d->shapeDensity(local.shape, receiver, p) / density, 1.0, 2e-5);
+    }
+    expectFits(counts, expected, kDraws, "from z " + std::to_string(receiver.z));
+  }
+}
+
 // Close to a lamp the drawn points lie within a thousandth of its radius.
 TEST(ShapeLights, ReceiversNearASphereAreLitRight) {
   for (const double height : {1e-2, 1e-3, 1e-4, 2e-5, 1e-6}) {
@@ -175,7 +219,7 @@ TEST(ShapeLights, DensityIsThatOfTheHit) {
       if (hit.instance == rl::RL_INVALID || std::abs(hit.t - c.distance) > 1e-3f) continue;
       const rl::Surface surface = d->surfaceLoad(hit, c.dirW);
       const float cosine = std::abs(glm::dot(surface.nGeoW, c.dirW));
-      if (cosine < 0.02f || surface.id.primitive != s.id.primitive) continue;
+      if (cosine < 0.15f || surface.id.primitive != s.id.primitive) continue;
       const float pdf =
           d->lightPdfOfHit(surface.light, surface.id, receiver, surface.nGeoW, c.dirW, hit.t);
       ASSERT_NEAR(pdf / c.pdfSolidAngle, 1.0f, 5e-3f) << of.name;

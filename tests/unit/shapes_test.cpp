@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "core/scene/shapes/fine_meshes.h"
@@ -126,13 +127,18 @@ TEST_P(Shapes, TheStandInFacesOutside) {
     area += 0.5 * double(glm::length(n));
     if (!(glm::length(n) > 1e-6f)) continue;
     const glm::vec3 unit = glm::normalize(n), centre = (a + b + c) / 3.0f;
-    rl::Hit hit{};
-    rl::Ray ray = rayOf(centre + away * unit, -unit);
-    ray.tMax = 2.0f * away;
+    // Beyond a narrow gap lies another part of the surface.
+    bool isRight = false;
+    for (const float distance : {away, 0.1f * away}) {
+      rl::Hit hit{};
+      rl::Ray ray = rayOf(centre + distance * unit, -unit);
+      ray.tMax = 2.0f * distance;
+      if (!local.d->shapeIntersect(local.shape, ray, hit)) continue;
+      const rl::ShapePoint p = local.d->shapePoint(local.shape, idOf(hit));
+      isRight = isRight || glm::dot(p.normalL, unit) > 0.5f;
+    }
     ++compared;
-    const bool found = local.d->shapeIntersect(local.shape, ray, hit);
-    if (!found || !(glm::dot(local.d->shapePoint(local.shape, idOf(hit)).normalL, unit) > 0.5f))
-      ++wrong;
+    if (!isRight) ++wrong;
   }
   EXPECT_GT(compared, 1);
   if (!GetParam().info->hasDraws) {
@@ -161,8 +167,8 @@ TEST_P(Shapes, TheFineMeshHasItsNormalsAndTextureCoordinates) {
     const rl::ShapePoint p = local.d->shapePoint(local.shape, idOf(hit));
     ASSERT_LT(glm::distance(p.normalL, n), 0.03f);
     const glm::vec2 uv = mean(mesh.uvs[0]);
-    EXPECT_NEAR(p.uv.x, uv.x, 0.01f);
-    EXPECT_NEAR(p.uv.y, uv.y, 0.01f);
+    EXPECT_NEAR(p.uv.x, uv.x, 0.01f + 1e-6f * std::abs(uv.x));
+    EXPECT_NEAR(p.uv.y, uv.y, 0.01f + 1e-6f * std::abs(uv.y));
     ++compared;
   }
   EXPECT_GT(compared, 1);
@@ -233,7 +239,8 @@ TEST_P(Shapes, NoRaySlipsThroughAnEdge) {
     const float end = inputs.below(2) == 0 ? 0.0f : 1.0f, along = inputs.uniform();
     const glm::vec2 bary = inputs.below(2) == 0 ? glm::vec2(along, end) : glm::vec2(end, along);
     const rl::ShapePoint edge = local.d->shapePoint(local.shape, {0, inputs.below(6), bary});
-    const glm::vec3 from = inside + 0.02f * GetParam().size() * inputs.direction();
+    glm::vec3 from = inside + 0.02f * GetParam().size() * inputs.direction();
+    if (!GetParam().info->isInside(GetParam().shape, glm::dvec3(from))) from = inside;
     rl::Hit hit{};
     if (!local.d->shapeIntersect(local.shape, rayOf(from, edge.posL - from), hit)) ++slipped;
   }
@@ -272,6 +279,62 @@ TEST_P(Shapes, ClosedOnesDoNotLeak) {
 
 INSTANTIATE_TEST_SUITE_P(, Shapes, testing::ValuesIn(shapeCases()),
                          [](const auto& one) { return one.param.name; });
+
+// Distance of a torus along a ray where it is least, between two places.
+double leastDistance(const std::function<double(double)>& distance, double low, double high) {
+  for (int i = 0; i < 60; ++i) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    if (distance(a) < distance(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+// Rays that touch the torus, but for a little to either side: two roots that are close are found,
+// and none is where there is none. A ray may meet other parts before.
+TEST(ShapeTorus, RaysThatGrazeAreRight) {
+  int touched = 0, passed = 0;
+  for (const char* name : {"torus", "torus_thin", "torus_fat"}) {
+    const ShapeCase& of = shapeNamed(name);
+    const double r = double(of.shape.values[0]);
+    LocalShape local(of);
+    Inputs inputs(11);
+    for (int i = 0; i < 4000; ++i) {
+      const rl::ShapePoint p = local.d->shapePoint(local.shape, {0, 0, inputs.square()});
+      const float side = inputs.below(2) == 0 ? 1.0f : -1.0f;
+      const glm::vec3 target = p.posL + side * inputs.scale(3e-6f, 1e-3f) * p.normalL;
+      const glm::vec3 dir = glm::normalize(glm::cross(p.normalL, inputs.direction()));
+      const rl::Ray ray = rayOf(target - 4.0f * dir, dir);
+      const auto distance = [&](double t) {
+        const glm::dvec3 at = glm::dvec3(ray.origin) + t * glm::dvec3(ray.dir);
+        return std::hypot(std::hypot(at.x, at.y) - 1.0, at.z) - r;
+      };
+      constexpr double kStep = 2e-3;
+      double first = -1.0, least = 1.0;
+      for (double t = kStep; t < 8.0 && first < 0.0; t += kStep) {
+        if (distance(t) > distance(t - kStep) || distance(t) > distance(t + kStep)) continue;
+        const double turn = leastDistance(distance, t - kStep, t + kStep);
+        least = std::min(least, distance(turn));
+        if (distance(turn) < -2e-6) first = turn;
+      }
+      rl::Hit hit{};
+      const bool isHit = local.d->shapeIntersect(local.shape, ray, hit);
+      if (first > 0.0) {
+        ++touched;
+        ASSERT_TRUE(isHit) << name << " " << i << ": dips by " << -least;
+        ASSERT_LT(double(hit.t), first) << name << " " << i << ": a root was passed over";
+      } else if (least > 2e-6) {
+        ++passed;
+        ASSERT_FALSE(isHit) << name << " " << i << ": passes by " << least;
+      }
+    }
+  }
+  EXPECT_GT(touched, 3000);
+  EXPECT_GT(passed, 1500);
+}
 
 // A ray that passes the front of a half transparent ball may still be stopped by its back.
 TEST(ShapeAlpha, BothSidesDecide) {

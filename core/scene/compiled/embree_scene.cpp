@@ -6,6 +6,7 @@
 
 #include "core/backend/trace_callbacks.h"
 #include "core/base/error.h"
+#include "core/dialect/features.h"
 #include "core/scene/compiled/shape_records.h"
 
 namespace restlab {
