@@ -44,7 +44,11 @@ class CornerSets {
     while (parents_[corner] != corner) corner = parents_[corner] = parents_[parents_[corner]];
     return corner;
   }
-  void join(uint32_t a, uint32_t b) { parents_[std::max(find(a), find(b))] = find(std::min(a, b)); }
+  void join(uint32_t a, uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
 
  private:
   std::vector<uint32_t> parents_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/builtin/mesh.h"
@@ -77,8 +78,10 @@ TEST(Crease, AFineSphereHasTheNormalsOfASphere) {
   const size_t vertices = mesh.positions.size();
   smoothNormals(mesh, 30.0);
   EXPECT_EQ(mesh.positions.size(), vertices);
+  float worst = 0.0f;
   for (size_t i = 0; i < mesh.positions.size(); ++i)
-    EXPECT_LT(glm::distance(mesh.normals[i], glm::normalize(mesh.positions[i])), 2e-3f);
+    worst = std::max(worst, glm::distance(mesh.normals[i], glm::normalize(mesh.positions[i])));
+  EXPECT_LT(worst, 3e-3f);  // radians
 }
 
 TEST(Crease, FacesThatCancelOutKeepANormal) {
