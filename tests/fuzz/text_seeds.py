@@ -34,6 +34,10 @@ def scene_files():
           + '[[light]]\nkind = "spot"\ndirection = [0.0, -1.0, 0.0]\n[camera]\nposition = [0.0, 1.0, 5.0]\n'
           + '[environment]\nradiance = 0.5\n[background]\nradiance = 0.0\n')
     write("scene_file", "read-settings.toml", clay + "[camera]\nyfov = 30.0\n\0material.clay.sigma=0.2&camera.yfov=60")
+    write("scene_file", "read-shapes.toml", clay + '[[shape]]\nkind = "torus"\nminor = 0.5\nmaterial = "clay"\n'
+          + 'instances = [{ scale = 2, material = "clay" }, { rotate = [0, 1, 0, 30], emission = 2 }]\n'
+          + '[[shape]]\nkind = "plane"\nsize = 100\n[[assign]]\nmesh = "*Block"\nnormals = 30\n')
+    write("scene_file", "mesh-of-nothing.toml", clay + '[[shape]]\nfile = "none.obj"\nnormals = "flat"\n')
     write("scene_file", "unknown-setting.toml", clay + "\0material.clay.sgma=0.2")
     write("scene_file", "setting-of-nothing.toml", clay + "\0&=&..")
     write("scene_file", "itself.toml", 'base = "x.scene.toml"\n')
