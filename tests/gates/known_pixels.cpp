@@ -50,7 +50,7 @@ Observations observe(const std::shared_ptr<const CompiledScene>& compiled, const
   bias::Method method = bias::pathMethod(scene.frames);
   method.config.width = scene.width;
   method.config.height = scene.height;
-  method.config.maxBounces = scene.bounces;
+  method.config.maxBounces = compiled->source().maxBounces.value_or(scene.bounces);
   Observations all(3 * (mask.size() + 1));
   bias::forEachRun(compiled, method, firstSeed, scene.runs, [&](const Image& image) {
     std::vector<glm::dvec3> pixels;
@@ -128,7 +128,10 @@ size_t confirmed(const Verdict& first, const Verdict& second) {
 void expectPixels(const KnownScene& scene, const PixelTruth& truth,
                   const std::vector<WrongTruth>& wrong) {
   test::MitsubaFolder folder;
+  for (const auto& [name, bytes] : scene.files) folder.write(name, bytes);
   const auto compiled = CompiledScene::build(folder.load(scene.xml));
+  EXPECT_EQ(compiled->source().cameras.at(0).film, glm::uvec2(scene.width, scene.height))
+      << scene.name;
   const std::vector<glm::dvec3> right = pixelsOf(scene, truth);
   const Observations first = observe(compiled, scene, right, kFirstSeeds);
   std::optional<Observations> second;

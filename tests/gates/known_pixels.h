@@ -10,6 +10,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace restlab::gates {
@@ -26,11 +27,12 @@ struct KnownScene {
   std::string name;  // for messages
   std::string xml;   // what <scene> holds
   uint32_t width = 24, height = 16;
-  uint32_t bounces = 1;  // scattering events
+  uint32_t bounces = 1;  // scattering events; those of an <integrator> win
   size_t runs = 64;
   uint32_t frames = 8;  // of a run
   // Relative error of pixels without noise: sums and positions of floats.
   double rounding = 2e-6;
+  std::vector<std::pair<std::string, std::string>> files = {};  // name and bytes, beside it
 };
 
 // Expects that the truth is not rejected, and that every wrong one is. Prints a line.

@@ -82,6 +82,33 @@ TEST(MitsubaTruths, FieldsOfView) {
                     diagonal);
 }
 
+// A window of 16 x 12 pixels at (4, 2) of the film, whose middle is moved by 3 pixels and -1.
+TEST(MitsubaTruths, WindowsOfTheFilm) {
+  const KnownScene film{.name = {}, .xml = {}};
+  const double halfWidth = std::tan(25.0 * std::numbers::pi / 180.0);
+  const KnownScene scene{
+      .name = "crop and principal point",
+      .xml =
+          "<sensor type=\"perspective\"><float name=\"fov\" value=\"50\"/>"
+          "<float name=\"principal_point_offset_x\" value=\"0.125\"/>"
+          "<float name=\"principal_point_offset_y\" value=\"-0.0625\"/>"
+          "<film type=\"hdrfilm\"><integer name=\"width\" value=\"24\"/><integer "
+          "name=\"height\" value=\"16\"/><integer name=\"crop_offset_x\" value=\"4\"/>"
+          "<integer name=\"crop_offset_y\" value=\"2\"/><integer name=\"crop_width\" "
+          "value=\"16\"/><integer name=\"crop_height\" value=\"12\"/></film></sensor>" +
+          lampBehindEdges(halfWidth, film),
+      .width = 16,
+      .height = 12,
+      .bounces = 0};
+  const auto truth = [](double x, double y) {
+    return framed(kLeft - x, kRight - x, kTop - y, kBottom - y);
+  };
+  expectPixels(scene, truth(7.0, 1.0),
+               {{"middle not moved", truth(4.0, 2.0)},
+                {"moved the other way", truth(1.0, 3.0)},
+                {"an eighth of a pixel", truth(7.125, 1.0)}});
+}
+
 // Steps of a transform apply one after the other: one lamp is turned and then moved to x = 1.25,
 // the other moved to x = 1.25 and then turned about the origin, to y = 1.25.
 TEST(MitsubaTruths, OrderOfTransformsAndParallelRays) {

@@ -27,12 +27,13 @@ struct FloorView {
   KnownScene scene;
   TheirCamera camera;
 };
-FloorView floorView(const std::string& name, const std::string& lamps, const glm::dvec3& origin) {
+FloorView floorView(const std::string& name, const std::string& lamps, const glm::dvec3& origin,
+                    uint32_t width = 12, uint32_t frames = 64) {
   FloorView view;
   view.scene.name = name;
-  view.scene.width = 12;
-  view.scene.height = 8;
-  view.scene.frames = 64;
+  view.scene.width = width;
+  view.scene.height = width * 2 / 3;
+  view.scene.frames = frames;
   view.scene.xml = sensorXml(fmt::format("{},{},{}", origin.x, origin.y, origin.z), "0,0,0",
                              "0,1,0", 40.0, view.scene) +
                    kFloor + lamps;
@@ -186,17 +187,13 @@ TEST(MitsubaTruths, APoint) {
 // In its beam a spot is constant, and outside of its cone dark. Pixels that reach between, within
 // a degree, are not judged.
 TEST(MitsubaTruths, ASpot) {
-  FloorView view = floorView(
+  const FloorView view = floorView(
       "spot",
       "<emitter type=\"spot\"><rgb name=\"intensity\" value=\"7 0 0\"/><float "
       "name=\"cutoff_angle\" value=\"24\"/><float name=\"beam_width\" value=\"22\"/><transform "
       "name=\"to_world\"><lookat origin=\"1,2,0\" target=\"-0.5,0,0\" up=\"0,0,1\"/></transform>"
       "</emitter>",
-      {0.0, 3.0, 3.0});
-  view.scene.width = view.camera.width = 30;
-  view.scene.height = 20;
-  view.camera.height = 20.0;
-  view.scene.frames = 8;
+      {0.0, 3.0, 3.0}, 30, 8);
   const glm::dvec3 spot(1.0, 2.0, 0.0), axis = glm::normalize(glm::dvec3(-1.5, -2.0, 0.0));
   const auto truth = [&](double beam, double intensity) {
     return litByOne(view, [=](const glm::dvec3& posW) {
@@ -238,14 +235,16 @@ TEST(MitsubaTruths, ClosedRooms) {
                        .xml = {},
                        .width = 12,
                        .height = 8,
-                       .bounces = segments - 1};
-      scene.xml = sensorXml("0.2,0.1,0", "0.9,0.5,0.7", "0,1,0", 90.0, scene) +
-                  fmt::format(
-                      "<shape type=\"{}\"><boolean name=\"flip_normals\" value=\"true\"/>"
-                      "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.5 0.8 "
-                      "0.3\"/></bsdf><emitter type=\"area\"><rgb name=\"radiance\" "
-                      "value=\"1 0.5 2\"/></emitter></shape>",
-                      shape);
+                       .bounces = 99};
+      scene.xml =
+          sensorXml("0.2,0.1,0", "0.9,0.5,0.7", "0,1,0", 90.0, scene) +
+          fmt::format(
+              "<integrator type=\"path\"><integer name=\"max_depth\" value=\"{}\"/>"
+              "</integrator><shape type=\"{}\"><boolean name=\"flip_normals\" value=\"true\"/>"
+              "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.5 0.8 "
+              "0.3\"/></bsdf><emitter type=\"area\"><rgb name=\"radiance\" "
+              "value=\"1 0.5 2\"/></emitter></shape>",
+              segments, shape);
       expectPixels(scene, truth(segments, 1.0),
                    {{"radiance + 2 %", truth(segments, 1.02)},
                     {"a segment more", truth(segments + 1, 1.0)}});

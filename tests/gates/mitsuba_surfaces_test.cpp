@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "core/image/io/png.h"
 #include "tests/gates/known_pixels.h"
 
 namespace restlab::gates {
@@ -168,6 +169,36 @@ TEST(MitsubaTruths, ACheckerboardIsScaledTurnedAndMoved) {
                {{"not turned", truth(false, 0.25, 1.0)},
                 {"not moved", truth(true, 0.0, 1.0)},
                 {"light + 2 %", truth(true, 0.25, 1.02)}});
+}
+
+// Heights that rise along u, on 24 metres: a slope of a half, which turns Lambert's cosine from
+// 0.8. At the ends of the ramp the texture is clamped.
+TEST(MitsubaTruths, ABumpMapTurnsTheNormal) {
+  std::vector<uint8_t> ramp;
+  for (int i = 0; i < 256; ++i) ramp.insert(ramp.end(), 3, uint8_t(i));
+  for (const bool isMirrored : {false, true}) {
+    KnownScene scene{.name = isMirrored ? "bump map, mirrored" : "bump map",
+                     .xml = parallelView(fmt::format(
+                         "<shape type=\"rectangle\"><transform name=\"to_world\"><scale "
+                         "x=\"{}\" y=\"8\"/></transform><bsdf type=\"bumpmap\"><texture "
+                         "type=\"bitmap\"><string name=\"filename\" value=\"ramp.png\"/><boolean "
+                         "name=\"raw\" value=\"true\"/><string name=\"wrap_mode\" "
+                         "value=\"clamp\"/></texture><float name=\"scale\" value=\"12\"/>{}"
+                         "</bsdf></shape>",
+                         isMirrored ? -12 : 12, diffuse("0.5"))),
+                     .rounding = 1e-2};  // normals have bytes
+    scene.files = {{"ramp.png", encodePng("ramp.png", 256, 1, ramp.data(), {}, 3)}};
+    const auto truth = [=](double slope) {
+      return [=](uint32_t x, uint32_t) {
+        if (x == 0 || x == 23) return glm::dvec3(std::nan(""));
+        const double s = isMirrored ? -slope : slope;
+        const double cosine = (0.6 * s + 0.8) / std::sqrt(1.0 + s * s);
+        return glm::dvec3(0.5 * cosine / kPiOfSurfaces);
+      };
+    };
+    expectPixels(scene, truth(0.5 * 256.0 / 255.0),
+                 {{"flat", truth(0.0)}, {"falls along u", truth(-0.5)}});
+  }
 }
 
 // Lamps of every kind under mirrored transforms shine outwards, and flat ones along +Z.

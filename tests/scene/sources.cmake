@@ -40,5 +40,6 @@ set(RL_SCENE_TESTS
   scene/mitsuba_document_test.cpp
   scene/mitsuba_meshes_test.cpp
   scene/mitsuba_values_test.cpp
+  scene/scene_write_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders
