@@ -87,6 +87,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/shell.cpp
   scene/builtin/sky.cpp
   scene/mitsuba/bsdf.cpp
+  scene/mitsuba/bump.cpp
   scene/mitsuba/bsdf_kinds.cpp
   scene/mitsuba/document.cpp
   scene/mitsuba/emitters.cpp
@@ -107,6 +108,7 @@ add_library(rl_scene_files OBJECT
   scene/gltf_write/materials.cpp
   scene/gltf_write/nodes.cpp
   scene/gltf_write/write.cpp
+  scene/scene_write/scene_write.cpp
 )
 target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
                       nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer

@@ -333,7 +333,7 @@ void bench(BenchOptions options) {
   MethodOptions chosen;
   chosen.backend = options.backend;
   SessionConfig config = makeConfig(options.scene, chosen);
-  completeConfig(prepared, config);
+  completeConfig(prepared, options.scene, config);
   // Measure the requested backend and the CPU, interleaved.
   std::vector<SessionConfig> configs = {config};
   if (config.backend != "cpu") {

@@ -69,8 +69,10 @@ RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
 RayBatch cameraRays(const rl::Camera& camera, uint32_t width, uint32_t height) {
   RayBatch rays;
   const auto add = [&](uint32_t x, uint32_t y) {
-    const float u = (2.0f * (float(x) + 0.5f) / float(width) - 1.0f) * camera.halfWidth;
-    const float v = (1.0f - 2.0f * (float(y) + 0.5f) / float(height)) * camera.halfHeight;
+    const float u =
+        (2.0f * (float(x) + 0.5f) / float(width) - 1.0f) * camera.halfWidth + camera.shiftX;
+    const float v =
+        (1.0f - 2.0f * (float(y) + 0.5f) / float(height)) * camera.halfHeight + camera.shiftY;
     const glm::vec3 aside = camera.rightW * u + camera.upW * v;
     if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
       addRay(rays, camera.posW + aside, camera.forwardW);
