@@ -56,16 +56,9 @@ struct ShapeCase {
 
 inline std::vector<ShapeCase> shapeCases() {
   std::vector<ShapeCase> cases;
-  const auto add = [&](const std::string& name, ShapeGeometry shape) {
-    cases.push_back({name, shape.info, shape, shape.info->isClosed(shape)});
-  };
-  for (const ShapeInfo& info : shapeRegistry()) {
-    std::vector<float> values;
-    for (const ShapeParameter& p : info.parameters) values.push_back(float(p.fallback));
-    if (!info.read) add(info.name, {&info, values});
-    for (const ShapeExample& example : info.examples)
-      add(example.name, {&info, example.values, example.words});
-  }
+  for (const NamedShape& named : namedShapes())
+    cases.push_back(
+        {named.name, named.shape.info, named.shape, named.shape.info->isClosed(named.shape)});
   return cases;
 }
 
