@@ -61,6 +61,7 @@ RL_FN_OUTLINE ShapePoint fieldPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
     vec3 other;
     frameFromNormal(n, around, other);
   }
+  around = around - n * dot(around, n);  // what rounding has left
   p.dpdu = around;
   p.dpdv = cross(around, n);
   p.uv = vec2(

@@ -210,12 +210,12 @@ FieldProgram fieldProgram(const std::vector<uint32_t>& words) {
 }
 
 bool isFieldClosed(const FieldProgram& program) {
-  constexpr int kHalvings = 14;
+  constexpr int kTimes = 14;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool isHigh : {false, true}) {
       glm::dvec3 low(program.low), high(program.high);
       (isHigh ? low : high)[axis] = isHigh ? high[axis] : low[axis];
-      if (!isAbove(program, low, high, kHalvings)) return false;
+      if (!isAbove(program, low, high, kTimes)) return false;
     }
   }
   return true;
