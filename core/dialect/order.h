@@ -10,6 +10,7 @@
 #include "core/shading/bsdf.h"
 #include "core/geometry/surface.h"
 #include "core/geometry/shape.h"
+#include "core/geometry/field/field.h"
 #include "core/geometry/material_point.h"
 #include "core/shading/light.h"
 #include "core/geometry/trace_bvh.h"

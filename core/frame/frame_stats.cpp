@@ -4,9 +4,9 @@ namespace restlab {
 
 const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
-      "nonfinite",         "rejected_jacobian", "capped_confidence", "delta_lobes",
-      "unreusable_pixels", "negative",          "dropped_weights",   "cache_full",
-      "light_changed",     "new_history",       "fireflies",         "long_walks"};
+      "nonfinite", "rejected_jacobian", "capped_confidence", "delta_lobes",   "unreusable_pixels",
+      "negative",  "dropped_weights",   "cache_full",        "light_changed", "new_history",
+      "fireflies", "long_walks",        "ray_segments"};
   return names;
 }
 
@@ -26,7 +26,9 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::meanings() {
       "pixels of accumulate, svgf and its kin that no pixel of the last frame has shown",
       "pixels that firefly has darkened: it takes their energy away",
       "paths that were ended after 1023 collisions inside a body, with more than 1e-4 of their "
-      "throughput left: that light is missing"};
+      "throughput left: that light is missing",
+      "rays that met 384 segments of an implicit surface and took the rest as one: they may miss a "
+      "place where it is crossed twice"};
   return meanings;
 }
 

@@ -42,8 +42,11 @@ RL_FN uint traceAlphaPart(RL_IN(Hit) hit, RL_OUT(uint) isShared) {
   isShared = 0u;
   // A ray may cross a shape several times: each place decides for itself, to a thousandth of the
   // coordinates, so that rounding rarely changes it.
-  if (RL_HAS_SHAPES && shapeIs(recordGeometry(recordInstance(hit.instance).geometry)))
-    return hit.primitive ^ (uint(hit.bary.x * 1023.0f) << 8u) ^ (uint(hit.bary.y * 1023.0f) << 18u);
+  if (RL_HAS_SHAPES && shapeIs(recordGeometry(recordInstance(hit.instance).geometry))) {
+    // Some kinds have a coordinate there, too (core/geometry/field/point.glsl).
+    uint part = hit.primitive < 8u ? hit.primitive : hit.primitive >> 20u;
+    return part ^ (uint(hit.bary.x * 1023.0f) << 8u) ^ (uint(hit.bary.y * 1023.0f) << 18u);
+  }
   float b0 = 1.0f - hit.bary.x - hit.bary.y;
   bool on0 = !(b0 > RL_EDGE_BARY);
   bool on1 = !(hit.bary.x > RL_EDGE_BARY);

@@ -34,6 +34,15 @@ target_sources(rl_core PRIVATE
   scene/compiled/split_triangles.cpp
   scene/shapes/shape_info.cpp
   scene/shapes/fine_meshes.cpp
+  scene/field/builder.cpp
+  scene/field/expression.cpp
+  scene/field/fault.cpp
+  scene/field/program.cpp
+  scene/field/reader.cpp
+  scene/field/shape.cpp
+  scene/field/solid.cpp
+  scene/field/solid_tree.cpp
+  scene/field/stand_in.cpp
   ${RL_SHAPE_HOST_SOURCES}
 )
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)

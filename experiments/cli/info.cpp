@@ -163,14 +163,21 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
 // How many instances of each kind of shape there are; nothing where all is made of triangles.
 void printShapes(const Scene& scene) {
   std::map<std::string, size_t> counts;
+  size_t undrawn = 0;
   for (const MeshInstance& instance : scene.instances) {
     const auto& shape = scene.geometries[instance.geometry].shape;
-    if (shape != nullptr) ++counts[shape->info->name];
+    if (shape == nullptr) continue;
+    ++counts[shape->info->name];
+    const bool emits = scene.materials[instance.material].data.emission != glm::vec3(0.0f);
+    if (emits && !shape->info->hasDraws) ++undrawn;
   }
   if (counts.empty()) return;
   std::vector<std::string> kinds;
   for (const auto& [name, count] : counts) kinds.push_back(fmt::format("{} {}", count, name));
-  print("shapes       {}\n", fmt::format("{}", fmt::join(kinds, ", ")));
+  print("shapes       {}{}\n", fmt::format("{}", fmt::join(kinds, ", ")),
+        undrawn == 0 ? ""
+                     : fmt::format("; {} emit and have no light samples: scattered rays find them",
+                                   undrawn));
 }
 
 void printScene(const PreparedScene& prepared, const Json& json) {

@@ -28,6 +28,8 @@ bool readSceneFile(const uint8_t* bytes, size_t count);
 bool readMitsuba(const uint8_t* bytes, size_t count);
 bool readObjMesh(const uint8_t* bytes, size_t count);
 bool readPlyMesh(const uint8_t* bytes, size_t count);
+// An expression, or, behind an s, a solid made of others.
+bool readField(const uint8_t* bytes, size_t count);
 bool readSerializedMesh(const uint8_t* bytes, size_t count);
 
 }  // namespace restlab::fuzz

@@ -48,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"exr", readExr}, Target{"texture", readTexture},
                       Target{"command", readCommand}, Target{"scene_file", readSceneFile},
                       Target{"mitsuba", readMitsuba}, Target{"obj", readObjMesh},
-                      Target{"ply", readPlyMesh}, Target{"serialized", readSerializedMesh}),
+                      Target{"ply", readPlyMesh}, Target{"serialized", readSerializedMesh},
+                      Target{"field", readField}),
     [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

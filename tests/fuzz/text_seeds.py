@@ -108,3 +108,23 @@ method = [{}, { name = "b", integrator = "restir_gi", mode = "unbiased" }]
     write("suite", "endless-sweep.toml", "scenes = ['cornell-box']\n[sweep]\n" + axes + "[[method]]\n")
     write("suite", "control.toml", b'scenes = ["a\\u001b[31m"]\n"\\u001b[31m\\nx" = 1\n[[method]]\n')
     write("suite", "bytes.toml", bytes(range(256)))
+
+
+# ---- fields: an expression behind an e, a solid behind an s ----------------------------------------
+
+
+def fields():
+    write("field", "read-heart", "e(x^2 + 9/4*y^2 + z^2 - 1)^3 - x^2*z^3 - 9/80*y^2*z^3")
+    write("field", "read-functions", "emax(abs(sin(5*x)*cos(5*y)) - exp(-z^2), min(sqrt(x^2 + 1), pi) - 1.2, -x/2)")
+    write("field", "read-solid", "ssmooth_union(0.3, sphere(0.5), translate(0.5, 0, 0, rotate(0, 0, 1, 30, box(0.4, 0.3, 0.2))))")
+    write("field", "read-bent", "stwist(40, difference(round(0.1, cylinder(2, 0.4)), shell(0.1, torus(0.5, 0.2))))")
+    write("field", "read-waves", "sscale(2, displace(0.05, 12, smooth_difference(0.1, capsule(1, 0.4), sphere(0.3))))")
+    write("field", "nothing", "e")
+    write("field", "unbounded", "ey - 1/(x*z)")
+    write("field", "deep", "e" + "(" * 900)
+    write("field", "deep-solids", "s" + "scale(1," * 120)
+    write("field", "read-powers", "e((((x^32)^32)^32)^32)^32")
+    write("field", "constant", "e1 + 2*pi")
+    write("field", "large", "e1e300*x + 1")
+    write("field", "endless", "srepeat(1, 1, 1, sphere(0.2))")
+    write("field", "bytes", bytes(range(256)))

@@ -53,6 +53,8 @@ list(APPEND RL_UNIT_TESTS
   drawn_lights_test.cpp
   shapes_test.cpp
   shape_draws_test.cpp
+  field_text_test.cpp
+  field_trace_test.cpp
 )
 
 # They set macros for the kernels that they include.

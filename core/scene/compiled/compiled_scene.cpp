@@ -250,7 +250,8 @@ std::shared_ptr<const CompiledScene> CompiledScene::build(Scene scene) {
   impl->lights = buildLightTable(
       {impl->scene, impl->positions, impl->uvs, impl->triangles, impl->geometries, impl->origin},
       impl->instances, impl->warnings);
-  if (impl->lights.lights.empty() && impl->scene.ambient == glm::vec3(0.0f)) {
+  if (impl->lights.lights.empty() && impl->lights.foundByScattering == 0 &&
+      impl->scene.ambient == glm::vec3(0.0f)) {
     bool unlit = false;
     for (const SceneMaterial& m : impl->scene.materials)
       unlit |= (m.data.flags & rl::RL_MATERIAL_UNLIT) != 0;

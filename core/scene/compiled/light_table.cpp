@@ -269,7 +269,10 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     const size_t before = table.emissiveTriangles;
     const bool isShape = in.geometries[instances[i].geometry].shape != rl::RL_SHAPE_TRIANGLES;
     const auto& shape = in.scene.geometries[in.scene.instances[i].geometry].shape;
-    if (isShape && !shape->info->hasDraws) continue;  // scattering alone finds it
+    if (isShape && !shape->info->hasDraws) {
+      ++table.foundByScattering;
+      continue;
+    }
     size_t zeroArea = 0;
     if (isShape) {
       if (addShape(in, instances[i], i, table, weights)) ++table.emissiveTriangles;

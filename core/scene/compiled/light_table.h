@@ -23,6 +23,7 @@ struct LightTable {
   std::vector<rl::AliasEntry> environmentAlias;
   uint32_t environmentLight = rl::RL_INVALID;
   size_t emissiveTriangles = 0;  // with positive area and power
+  size_t foundByScattering = 0;  // shapes without draws that emit: not in the table
 };
 
 // Flattened buffers that emissive triangles are read from.

@@ -1,0 +1,53 @@
+// The tree of a solid as it is written.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/field/reader.h"
+
+namespace restlab {
+
+// Order of solidForms().
+enum class SolidKind {
+  sphere,
+  box,
+  torus,
+  capsule,
+  cylinder,
+  plane,
+  unite,
+  intersect,
+  subtract,
+  smoothUnite,
+  smoothIntersect,
+  smoothSubtract,
+  round,
+  shell,
+  translate,
+  rotate,
+  scale,
+  repeat,
+  twist,
+  displace,
+};
+
+struct Solid {
+  SolidKind kind = SolidKind::sphere;
+  std::vector<double> numbers;
+  std::vector<Solid> parts;
+  TextSpan span;
+};
+
+// Throws Error (badInput): the place in the text, what is wrong, what would be right.
+Solid readSolidTree(const std::string& text);
+
+struct SolidBox {
+  glm::dvec3 low, high;
+};
+
+// A box around the solid; nullopt: it has no end.
+std::optional<SolidBox> boundsOf(const Solid& solid);
+
+}  // namespace restlab
