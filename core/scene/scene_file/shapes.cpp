@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/scene/builtin/builder.h"
@@ -77,8 +78,10 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
     shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
                                                               int64_t(p.lo), int64_t(p.hi)))
                                      : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
-  if (info.read) info.read(table, shape);
   const glm::dmat4 toWorld = readTransform(table);
+  std::optional<MeshGeometry> mesh;
+  if (info.readMesh) mesh = info.readMesh(table, {toWorld, scene.cameras});
+  if (info.read && !mesh) info.read(table, shape);
   SceneMaterial material = readMaterial(table, materials, scene, name);
   constexpr double kBrightest = 1e12;
   if (table.has("emission")) {
@@ -98,7 +101,8 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
   instance.geometry = static_cast<uint32_t>(scene.geometries.size());
   instance.material = static_cast<uint32_t>(scene.materials.size());
   instance.objectToWorld = toWorld;
-  scene.geometries.push_back(makeShape(std::move(shape), name));
+  if (mesh) mesh->name = name;
+  scene.geometries.push_back(mesh ? std::move(*mesh) : makeShape(std::move(shape), name));
   scene.materials.push_back(std::move(material));
   scene.instances.push_back(std::move(instance));
 }
