@@ -8,6 +8,10 @@
 
 RL_NAMESPACE_BEGIN
 
+// Sides reach beyond the rim of an end by this, in the shape's own space: rays at the rim would
+// slip through between both by rounding.
+const float RL_SHAPE_RIM = 2.0e-6f;
+
 struct Shape {
   uint kind;       // RL_SHAPE_*
   uint firstWord;  // of its parameters, in SceneData::shapeWords (uvec4s)

@@ -23,6 +23,8 @@ target_sources(rl_core PRIVATE
   scene/scene_file/scattering.cpp
   scene/scene_file/scene_file.cpp
   scene/scene_file/shapes.cpp
+  scene/scene_file/meshes.cpp
+  scene/crease.cpp
   scene/textures/png_decode.cpp
   scene/textures/texture_range.cpp
   scene/compiled/coarse_vertices.cpp

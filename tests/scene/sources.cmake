@@ -40,5 +40,7 @@ set(RL_SCENE_TESTS
   scene/mitsuba_document_test.cpp
   scene/mitsuba_meshes_test.cpp
   scene/mitsuba_values_test.cpp
+  scene/crease_test.cpp
+  scene/scene_file_shapes_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

@@ -52,6 +52,7 @@ list(APPEND RL_UNIT_TESTS
   texture_test.cpp
   drawn_lights_test.cpp
   shapes_test.cpp
+  shape_draws_test.cpp
   nurbs_test.cpp
 )
 

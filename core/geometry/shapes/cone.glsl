@@ -24,10 +24,11 @@ RL_FN bool coneIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) 
       float s = i == 0u ? q / a : c / q;
       float t = middle + s;
       vec3 at = o + ray.dir * s;
-      if (!(t > ray.tMin) || !(t < nearest) || !(at.z <= 0.0f) || !(at.z >= -1.0f)) continue;
+      if (!(t > ray.tMin) || !(t < nearest) || !(at.z <= 0.0f) || !(at.z >= -1.0f - RL_SHAPE_RIM))
+        continue;
       nearest = t;
       hit.primitive = 0u;
-      hit.bary = vec2(shapeDiamond(vec2(at.x, at.y)), at.z + 1.0f);
+      hit.bary = vec2(shapeDiamond(vec2(at.x, at.y)), max(at.z + 1.0f, 0.0f));
       found = true;
     }
   }

@@ -18,12 +18,13 @@ RL_FN bool cylinderIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) h
     for (uint i = 0u; i < 2u; i = i + 1u) {
       float t = i == 0u ? middle - reach : middle + reach;
       float z = ray.origin.z + t * ray.dir.z;
-      if (!(t > ray.tMin) || !(t < nearest) || !(z >= 0.0f) || !(z <= 1.0f)) continue;
+      if (!(t > ray.tMin) || !(t < nearest) || !(z >= -RL_SHAPE_RIM) || !(z <= 1.0f + RL_SHAPE_RIM))
+        continue;
       float along = i == 0u ? -reach : reach;
       vec2 at = vec2(closest.x + ray.dir.x * along, closest.y + ray.dir.y * along);
       nearest = t;
       hit.primitive = 0u;
-      hit.bary = vec2(shapeDiamond(at), z);
+      hit.bary = vec2(shapeDiamond(at), clamp(z, 0.0f, 1.0f));
       found = true;
     }
   }

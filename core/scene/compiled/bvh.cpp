@@ -13,6 +13,7 @@
 #include "core/backend/embree.h"
 #include "core/base/error.h"
 #include "core/dialect/order.h"
+#include "core/scene/compiled/instance_box.h"
 
 namespace restlab {
 
@@ -245,26 +246,10 @@ class Builder {
     return box;
   }
 
-  // Bounds the transformed corners of the mesh's box and the rounding error of a ray's transform.
   Box boxOf(const rl::Instance& inst) const {
-    const Box mesh = geometryBoxes_.at(inst.geometry);
-    Box box;
-    const glm::vec4 rows[3] = {inst.objectToWorldRow0, inst.objectToWorldRow1,
-                               inst.objectToWorldRow2};
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::vec4 p((corner & 1) != 0 ? mesh.high.x : mesh.low.x,
-                        (corner & 2) != 0 ? mesh.high.y : mesh.low.y,
-                        (corner & 4) != 0 ? mesh.high.z : mesh.low.z, 1.0f);
-      glm::vec3 at, magnitude;
-      for (int c = 0; c < 3; ++c) {
-        at[c] = glm::dot(rows[c], p);
-        magnitude[c] = glm::dot(glm::abs(rows[c]), glm::abs(p));
-      }
-      const float error = rl::RL_HIT_ERROR * std::max({magnitude.x, magnitude.y, magnitude.z});
-      box.add(at - error);
-      box.add(at + error);
-    }
-    return box;
+    const Box& mesh = geometryBoxes_.at(inst.geometry);
+    const std::array<glm::vec3, 2> box = boxOfInstance(inst, {mesh.low, mesh.high});
+    return {box[0], box[1]};
   }
 
   void buildGeometry(uint32_t geometry) {

@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <mutex>
 
-#include "core/backend/trace_callbacks.h"
-#include "core/backend/embree.h"
 #include "core/base/error.h"
 #include "core/scene/compiled/black_textures.h"
 #include "core/scene/compiled/bodies.h"
 #include "core/scene/compiled/body_warnings.h"
 #include "core/scene/compiled/clear_surfaces.h"
 #include "core/scene/compiled/coarse_vertices.h"
+#include "core/scene/compiled/embree_scene.h"
 #include "core/scene/compiled/ggx_albedo.h"
 #include "core/scene/compiled/light_table.h"
 #include "core/scene/compiled/light_tree.h"
@@ -67,19 +65,7 @@ struct CompiledScene::Impl {
   Bodies bodies;
   rl::SceneData data{};
   size_t instancedTriangles = 0;
-  // Memory held by Embree, which allocates from several threads.
-  std::atomic<ptrdiff_t> embreeBytes{0};
-  RTCDevice device = nullptr;
-  RTCScene top = nullptr;
-  std::vector<RTCScene> meshScenes;
-
-  ~Impl() {
-    if (top != nullptr) rtcReleaseScene(top);
-    for (RTCScene s : meshScenes) {
-      if (s != nullptr) rtcReleaseScene(s);
-    }
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
+  EmbreeScene embree;
 
   void flatten();
   void addGeometry(const MeshGeometry& mesh, const glm::dmat4* bake,
@@ -199,96 +185,17 @@ void CompiledScene::Impl::flatten() {
 }
 
 void CompiledScene::Impl::buildEmbree() {
-  device = rtcNewDevice("");
-  if (device == nullptr)
-    throw Error(ExitCode::deviceUnavailable, "Embree could not create a device");
-  const auto count = [](void* bytes, ptrdiff_t change, bool) {
-    static_cast<std::atomic<ptrdiff_t>*>(bytes)->fetch_add(change);
-    return true;
-  };
-  rtcSetDeviceMemoryMonitorFunction(device, count, &embreeBytes);
-  // Kernels check hits on partly transparent instances, and on bodies if bodies meet.
-  const bool alpha = (features & rl::RL_FEATURE_ALPHA) != 0;
-  const auto asks = [&](const rl::Instance& inst) {
-    return (alpha && (inst.flags & rl::RL_INSTANCE_ALPHA) != 0) ||
-           (bodies.meet && inst.flags >> rl::RL_INSTANCE_RANK_SHIFT != 0);
-  };
-  // ROBUST: watertight along shared edges. High quality splits triangles, which would report a hit
-  // twice to the alpha filter of shadow rays.
-  const RTCBuildQuality quality = alpha ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
-  auto newScene = [&] {
-    RTCScene s = rtcNewScene(device);
-    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(s, quality);
-    return s;
-  };
-  auto newTriangles = [&](const rl::Geometry& g, size_t vertexCount, bool isAsked) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Copy to Embree's own buffers: Embree requires padding after the last vertex.
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
-    auto* t = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                             RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
-                                                             g.triangleCount));
-    if (v == nullptr || t == nullptr)
-      failInput(fmt::format("{}: out of memory for the ray-tracing structure", scene.name));
-    std::copy_n(&positions[g.firstVertex].x, 3 * vertexCount, v);
-    std::copy_n(&triangles[g.firstTriangle].x, 3 * size_t(g.triangleCount), t);
-    if (isAsked) {
-      rtcSetGeometryIntersectFilterFunction(geometry, rl::alphaFilterTrampoline);
-      rtcSetGeometryOccludedFilterFunction(geometry, rl::alphaFilterTrampoline);
-    }
-    rtcCommitGeometry(geometry);
-    return geometry;
-  };
-  auto vertexCount = [&](uint32_t g) {
-    const size_t end = g + 1 < geometries.size() ? geometries[g + 1].firstVertex : positions.size();
-    return end - geometries[g].firstVertex;
-  };
   shapeBoxes = boxesOfShapes(scene, geometries, instances);
-  top = newScene();
-  meshScenes.resize(geometries.size(), nullptr);
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    const rl::Instance& inst = instances[i];
-    const uint32_t g = inst.geometry;
-    if (geometries[g].shape != rl::RL_SHAPE_TRIANGLES) {
-      RTCGeometry geometry = newShape(device, shapeBoxes[i]);
-      rtcAttachGeometryByID(top, geometry, i);
-      rtcReleaseGeometry(geometry);
-      continue;
-    }
-    if (geometries[g].triangleCount == 0) continue;
-    if ((inst.flags & rl::RL_INSTANCE_IDENTITY) != 0) {
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), asks(inst));
-      rtcAttachGeometryByID(top, geometry, i);
-      rtcReleaseGeometry(geometry);
-      continue;
-    }
-    if (meshScenes[g] == nullptr) {
-      // Instances may have different materials: the filter checks each hit's own.
-      RTCGeometry geometry = newTriangles(geometries[g], vertexCount(g), alpha || bodies.meet);
-      meshScenes[g] = newScene();
-      rtcAttachGeometryByID(meshScenes[g], geometry, 0);
-      rtcReleaseGeometry(geometry);
-      rtcCommitScene(meshScenes[g]);
-    }
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, meshScenes[g]);
-    rtcSetGeometryTimeStepCount(geometry, 1);
-    const glm::vec4 r0 = inst.objectToWorldRow0, r1 = inst.objectToWorldRow1,
-                    r2 = inst.objectToWorldRow2;
-    const float rows[12] = {r0.x, r0.y, r0.z, r0.w, r1.x, r1.y, r1.z, r1.w, r2.x, r2.y, r2.z, r2.w};
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(top, geometry, i);
-    rtcReleaseGeometry(geometry);
-  }
-  rtcCommitScene(top);
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE) {
-    failInput(fmt::format("{}: building the ray-tracing structure failed (Embree error {})",
-                          scene.name, static_cast<int>(error)));
-  }
+  EmbreeInput input;
+  input.name = scene.name;
+  input.positions = positions;
+  input.triangles = triangles;
+  input.geometries = geometries;
+  input.instances = instances;
+  input.shapeBoxes = shapeBoxes;
+  input.hasAlpha = (features & rl::RL_FEATURE_ALPHA) != 0;
+  input.bodiesMeet = bodies.meet;
+  embree.build(input);
 }
 
 void CompiledScene::Impl::bindAddresses() {
@@ -372,7 +279,7 @@ void CompiledScene::bindGgxAlbedo() const {
 const Bvh& CompiledScene::bindBvh() const {
   Impl& m = *impl_;
   std::call_once(m.bvhBound, [&] {
-    m.bvh = buildBvh(m.device, bvhInput());
+    m.bvh = buildBvh(m.embree.device(), bvhInput());
     m.data.bvh.data = reinterpret_cast<glm::uvec4*>(m.bvh.records.data());
     m.data.bvhRoots.data = m.bvh.roots.data();
   });
@@ -442,7 +349,7 @@ std::string CompiledScene::lightName(uint32_t record) const {
 }
 size_t CompiledScene::lampCount() const { return impl_->lights.lamps; }
 size_t CompiledScene::emissiveTriangleCount() const { return impl_->lights.emissiveTriangles; }
-void* CompiledScene::embreeScene() const { return impl_->top; }
+void* CompiledScene::embreeScene() const { return impl_->embree.top(); }
 glm::dvec3 CompiledScene::origin() const { return impl_->origin; }
 
 bool CompiledScene::differsInLightAlone(const CompiledScene& other) const {
@@ -483,9 +390,7 @@ bool CompiledScene::absorbs(uint32_t rank) const {
   return rank != 0 && glm::vec3(impl_->bodies.media.at(2 * size_t(rank))) != glm::vec3(0.0f);
 }
 
-size_t CompiledScene::embreeBytes() const {
-  return size_t(std::max<ptrdiff_t>(0, impl_->embreeBytes));
-}
+size_t CompiledScene::embreeBytes() const { return impl_->embree.bytes(); }
 
 size_t CompiledScene::bytes() const {
   auto of = [](const auto& v) { return v.size() * sizeof(v[0]); };

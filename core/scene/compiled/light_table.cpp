@@ -268,6 +268,8 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
     const auto first = static_cast<uint32_t>(table.lights.size());
     const size_t before = table.emissiveTriangles;
     const bool isShape = in.geometries[instances[i].geometry].shape != rl::RL_SHAPE_TRIANGLES;
+    const auto& shape = in.scene.geometries[in.scene.instances[i].geometry].shape;
+    if (isShape && !shape->info->hasDraws) continue;  // scattering alone finds it
     size_t zeroArea = 0;
     if (isShape) {
       if (addShape(in, instances[i], i, table, weights)) ++table.emissiveTriangles;

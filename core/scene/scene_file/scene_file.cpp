@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/content_hash.h"
+#include "core/scene/scene_file/meshes.h"
 #include "core/scene/scene_file/shapes.h"
 #include "core/scene/textures/daylight.h"
 
@@ -60,14 +61,16 @@ Scene loadBase(const ConfigTable& table, const fs::path& folder) {
   return atPlace(table.place("base"), load);
 }
 
-// [[assign]]: which materials, meshes or nodes scatter as a [[material]] says.
+// [[assign]]: which materials, meshes or nodes scatter as a [[material]] says, and the normals of
+// meshes.
 class Assignment {
  public:
   Assignment(Scene& scene, const std::vector<Scattering>& materials)
       : scene_(scene), materials_(materials) {}
 
   void apply(const ConfigTable& table) {
-    const Scattering& to = target(table);
+    const bool hasNormals = table.has("normals");
+    const Scattering* to = hasNormals && !table.has("to") ? nullptr : &target(table);
     std::string by;
     for (const char* key : {"material", "mesh", "node"}) {
       if (!table.has(key)) continue;
@@ -78,10 +81,12 @@ class Assignment {
     if (by.empty())
       table.fail("", "[[assign]] has none of 'material', 'mesh', 'node': a name of the base scene");
     const std::string pattern = table.getString(by, "");
-    table.finish();
     std::vector<std::string> names;
-    const size_t count = by == "material" ? assignMaterials(table, pattern, to, names)
-                                          : assignInstances(table, by, pattern, to, names);
+    size_t count = hasNormals ? assignNormals(table, by, pattern, names) : 0;
+    table.finish();
+    if (to != nullptr)
+      count = by == "material" ? assignMaterials(table, pattern, *to, names)
+                               : assignInstances(table, by, pattern, *to, names);
     if (count > 0) return;
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -107,6 +112,24 @@ class Assignment {
     if (found == names.end())
       table.fail("to", fmt::format("no [[material]] is named '{}'{}", to, didYouMean(to, names)));
     return materials_[size_t(found - names.begin())];
+  }
+
+  // Normals belong to a mesh, whichever instances show it.
+  size_t assignNormals(const ConfigTable& table, const std::string& by, const std::string& pattern,
+                       std::vector<std::string>& names) {
+    if (by != "mesh") table.fail("normals", "'normals' are of a mesh; name it by 'mesh'");
+    size_t count = 0;
+    for (MeshGeometry& mesh : scene_.geometries) {
+      names.push_back(mesh.name);
+      if (!matches(pattern, mesh.name)) continue;
+      if (mesh.shape != nullptr)
+        table.fail("normals", fmt::format("'{}' is a shape, which has the normals of its equation; "
+                                          "a mesh expected",
+                                          mesh.name));
+      readNormals(table, mesh);
+      ++count;
+    }
+    return count;
   }
 
   size_t assignMaterials(const ConfigTable& table, const std::string& pattern, const Scattering& to,
@@ -329,7 +352,8 @@ Scene read(const fs::path& file, const std::string& settings) {
     scene.cameras = {readCamera(table.getTable("camera"))};
     scene.mainCamera = 0;
   }
-  for (const ConfigTable& shape : table.getTables("shape")) addShape(shape, materials, scene);
+  for (const ConfigTable& shape : table.getTables("shape"))
+    addShape(shape, folder, materials, scene);
   Assignment assignment(scene, materials);
   for (const ConfigTable& assign : table.getTables("assign")) assignment.apply(assign);
   for (const ConfigTable& light : table.getTables("light")) addLight(light, scene);

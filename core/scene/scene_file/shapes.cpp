@@ -6,9 +6,11 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/scene/builtin/builder.h"
+#include "core/scene/scene_file/meshes.h"
 #include "core/scene/shapes/shape_info.h"
 
 namespace restlab {
@@ -19,7 +21,8 @@ const ShapeInfo& readKind(const ConfigTable& table) {
   std::vector<std::string> names;
   for (const ShapeInfo& info : shapeRegistry()) names.push_back(info.name);
   if (!table.has("kind"))
-    table.fail("", fmt::format("[[shape]] has no 'kind': one of {}", fmt::join(names, ", ")));
+    table.fail("", fmt::format("[[shape]] has no 'kind' and no 'file' of a mesh; kinds: {}",
+                               fmt::join(names, ", ")));
   return *findShape(table.getChoice("kind", names[0], names));
 }
 
@@ -67,22 +70,8 @@ SceneMaterial readMaterial(const ConfigTable& table, const std::vector<Scatterin
                                      wanted, didYouMean(wanted, names)));
 }
 
-}  // namespace
-
-void addShape(const ConfigTable& table, const std::vector<Scattering>& materials, Scene& scene) {
-  const ShapeInfo& info = readKind(table);
-  const std::string name =
-      table.getString("name", fmt::format("{} {}", info.name, scene.instances.size()));
-  ShapeGeometry shape{&info, {}};
-  for (const ShapeParameter& p : info.parameters)
-    shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
-                                                              int64_t(p.lo), int64_t(p.hi)))
-                                     : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
-  const glm::dmat4 toWorld = readTransform(table);
-  std::optional<MeshGeometry> mesh;
-  if (info.readMesh) mesh = info.readMesh(table, {toWorld, scene.cameras});
-  if (info.read && !mesh) info.read(table, shape);
-  SceneMaterial material = readMaterial(table, materials, scene, name);
+// Reads what a surface sends out, and from which sides.
+void readEmission(const ConfigTable& table, SceneMaterial& material) {
   constexpr double kBrightest = 1e12;
   if (table.has("emission")) {
     const bool isGrey = table.getTexts("emission").size() == 1;
@@ -95,16 +84,80 @@ void addShape(const ConfigTable& table, const std::vector<Scattering>& materials
   } else {
     material.data.flags &= ~rl::RL_MATERIAL_DOUBLE_SIDED;
   }
-  table.finish();
+}
+
+// Where the shape and its instances stand.
+ShapePlace placesOf(const ConfigTable& table, const std::vector<SceneCamera>& cameras) {
+  const glm::dmat4 own = readTransform(table);
+  ShapePlace place{{}, cameras};
+  for (const ConfigTable& one : table.getTables("instances"))
+    place.toWorld.push_back(readTransform(one) * own);
+  if (place.toWorld.empty()) place.toWorld.push_back(own);
+  return place;
+}
+
+MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
+  const ShapeInfo& info = readKind(table);
+  ShapeGeometry shape{&info, {}};
+  for (const ShapeParameter& p : info.parameters)
+    shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
+                                                              int64_t(p.lo), int64_t(p.hi)))
+                                     : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+  if (info.readMesh) {
+    if (std::optional<MeshGeometry> mesh = info.readMesh(table, placesOf(table, scene.cameras))) {
+      mesh->name = info.name;
+      return std::move(*mesh);
+    }
+  }
+  if (info.read) info.read(table, shape);
+  return makeShape(std::move(shape), info.name);
+}
+
+MeshGeometry readGeometry(const ConfigTable& table, const std::filesystem::path& folder,
+                          Scene& scene) {
+  if (!table.has("file")) return readShape(table, scene);
+  if (table.has("kind")) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
+  MeshGeometry mesh = readMeshFile(table, folder, scene);
+  readNormals(table, mesh);
+  mesh.name = std::filesystem::path(table.getString("file", "")).stem().string();
+  return mesh;
+}
+
+}  // namespace
+
+void addShape(const ConfigTable& table, const std::filesystem::path& folder,
+              const std::vector<Scattering>& materials, Scene& scene) {
+  MeshGeometry geometry = readGeometry(table, folder, scene);
+  const std::string name =
+      table.getString("name", fmt::format("{} {}", geometry.name, scene.instances.size()));
+  geometry.name = name;
   MeshInstance instance;
   instance.name = name;
   instance.geometry = static_cast<uint32_t>(scene.geometries.size());
+  instance.objectToWorld = readTransform(table);
+  SceneMaterial material = readMaterial(table, materials, scene, name);
+  readEmission(table, material);
   instance.material = static_cast<uint32_t>(scene.materials.size());
-  instance.objectToWorld = toWorld;
-  if (mesh) mesh->name = name;
-  scene.geometries.push_back(mesh ? std::move(*mesh) : makeShape(std::move(shape), name));
-  scene.materials.push_back(std::move(material));
-  scene.instances.push_back(std::move(instance));
+  const std::vector<ConfigTable> places = table.getTables("instances");
+  table.finish();
+  scene.geometries.push_back(std::move(geometry));
+  scene.materials.push_back(material);
+  if (places.empty()) scene.instances.push_back(instance);
+  for (size_t i = 0; i < places.size(); ++i) {
+    const ConfigTable& place = places[i];
+    MeshInstance one = instance;
+    one.name = place.getString("name", fmt::format("{} {}", name, i));
+    one.objectToWorld = readTransform(place) * instance.objectToWorld;
+    if (place.has("material") || place.has("emission") || place.has("double_sided")) {
+      SceneMaterial own =
+          place.has("material") ? readMaterial(place, materials, scene, one.name) : material;
+      readEmission(place, own);
+      one.material = static_cast<uint32_t>(scene.materials.size());
+      scene.materials.push_back(std::move(own));
+    }
+    place.finish();
+    scene.instances.push_back(std::move(one));
+  }
 }
 
 }  // namespace restlab

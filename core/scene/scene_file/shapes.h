@@ -1,6 +1,7 @@
 // [[shape]] of a scene file.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "core/base/config.h"
@@ -8,8 +9,10 @@
 
 namespace restlab {
 
-// Adds a shape with its transform and material: one of `materials`, or one that the scene has.
-// Throws Error (badUsage) at the place of what is wrong.
-void addShape(const ConfigTable& table, const std::vector<Scattering>& materials, Scene& scene);
+// Adds a shape, or the mesh of a file below `folder`, with its transform and material: one of
+// `materials`, or one that the scene has. Its 'instances' share the geometry.
+// Throws Error (badUsage, badInput) at the place of what is wrong.
+void addShape(const ConfigTable& table, const std::filesystem::path& folder,
+              const std::vector<Scattering>& materials, Scene& scene);
 
 }  // namespace restlab

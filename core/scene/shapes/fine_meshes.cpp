@@ -10,7 +10,7 @@ namespace restlab {
 namespace {
 
 constexpr uint32_t kSegments = 128;  // about the axis: off the circle by 0.03 % of the radius
-constexpr uint32_t kRows = 64;       // of a sphere
+constexpr uint32_t kRows = 64;       // of a sphere, and around the tube of a torus
 
 void addVertex(MeshGeometry& mesh, const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& uv) {
   mesh.positions.push_back(p);
@@ -129,6 +129,35 @@ MeshGeometry sphereMesh() {
   return mesh;
 }
 
+MeshGeometry torusMesh(double minor) {
+  MeshGeometry mesh;
+  for (uint32_t row = 0; row <= kRows; ++row) {
+    const glm::dvec2 tube = around(double(row) * kSegments / kRows);
+    for (uint32_t i = 0; i <= kSegments; ++i) {
+      const glm::dvec2 d = around(i);
+      addVertex(mesh, glm::dvec3(d * (1.0 + minor * tube.x), minor * tube.y),
+                glm::dvec3(d * tube.x, tube.y), {double(i) / kSegments, double(row) / kRows});
+    }
+  }
+  constexpr uint32_t kWidth = kSegments + 1;
+  for (uint32_t row = 0; row < kRows; ++row) {
+    for (uint32_t i = 0; i < kSegments; ++i) {
+      const uint32_t a = row * kWidth + i, b = a + 1, c = a + kWidth, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  }
+  return mesh;
+}
+
+// Its texture coordinates are metres.
+MeshGeometry planeMesh(double size) {
+  MeshGeometry mesh;
+  addSquare(mesh, {0, 0, 0}, {0, 0, 1}, {size, 0, 0}, {0, size, 0});
+  for (glm::vec2& uv : mesh.uvs[0]) uv = glm::vec2(size * (2.0 * glm::dvec2(uv) - 1.0));
+  return mesh;
+}
+
 }  // namespace
 
 MeshGeometry fineMesh(const ShapeGeometry& shape) {
@@ -140,6 +169,8 @@ MeshGeometry fineMesh(const ShapeGeometry& shape) {
                       : kind == "cylinder" ? cylinderMesh(isSet())
                       : kind == "cone"     ? coneMesh(isSet())
                       : kind == "sphere"   ? sphereMesh()
+                      : kind == "torus"    ? torusMesh(shape.values.at(0))
+                      : kind == "plane"    ? planeMesh(shape.values.at(0))
                                            : shape.info->standIn(shape);
   mesh.name = kind;
   if (mesh.normals.empty()) return mesh;

@@ -33,7 +33,7 @@ struct ShapeExample {
 
 // Where a shape of a scene file stands.
 struct ShapePlace {
-  glm::dmat4 toWorld{1.0};
+  std::vector<glm::dmat4> toWorld;   // of each instance, at least one
   std::vector<SceneCamera> cameras;  // none: not known yet
 };
 

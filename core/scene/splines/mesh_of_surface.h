@@ -12,6 +12,7 @@ namespace restlab {
 MeshGeometry readMeshOfSurface(const ConfigTable& table, const ShapePlace& place);
 
 // The error in metres that a quarter of a pixel is at the surface.
-double quarterOfPixel(const BezierGrid& grid, const ShapePlace& place);
+double quarterOfPixel(const BezierGrid& grid, const glm::dmat4& toWorld,
+                      const std::vector<SceneCamera>& cameras);
 
 }  // namespace restlab

@@ -1,0 +1,50 @@
+#include "core/scene/scene_file/meshes.h"
+
+#include <fmt/format.h>
+
+#include "core/scene/content_hash.h"
+#include "core/scene/crease.h"
+#include "core/scene/mitsuba/files.h"
+#include "core/scene/mitsuba/mesh_files.h"
+
+namespace restlab {
+
+MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
+                          Scene& scene) {
+  constexpr uint64_t kMostBytes = uint64_t{1} << 32;
+  const std::string name = table.getString("file", "");
+  const std::string place = table.place("file");
+  const bool isObj = name.ends_with(".obj");
+  if (!isObj && !name.ends_with(".ply"))
+    table.fail("file",
+               fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
+  mitsuba::Report report;
+  mitsuba::Files files(folder, report);
+  const std::filesystem::path file = files.find(name, place);
+  const std::vector<uint8_t> bytes = files.read(file, place, kMostBytes);
+  scene.contentHash = hashBytes(bytes.data(), bytes.size(), scene.contentHash);
+  MeshGeometry mesh = isObj ? mitsuba::readObj(bytes, file.string(), report)
+                            : mitsuba::readPly(bytes, file.string(), report);
+  for (std::string& line : report.warnings()) scene.warnings.push_back(std::move(line));
+  // Rows of images begin at v = 0 here, and at v = 1 in OBJ files.
+  if (isObj)
+    for (glm::vec2& uv : mesh.uvs[0]) uv.y = 1.0f - uv.y;
+  if (!mesh.normals.empty()) mitsuba::completeNormals(mesh);
+  return mesh;
+}
+
+void readNormals(const ConfigTable& table, MeshGeometry& mesh) {
+  if (!table.has("normals")) return;
+  const std::vector<std::string> texts = table.getTexts("normals");
+  const bool isWord =
+      !texts.empty() && !texts[0].empty() && (texts[0].front() == '"' || texts[0].front() == '\'');
+  if (!isWord) {
+    smoothNormals(mesh, table.getNumber("normals", 180.0, 0.0, 180.0));
+    return;
+  }
+  const std::string word = table.getChoice("normals", "file", {"file", "flat", "smooth"});
+  if (word == "flat") flattenNormals(mesh);
+  if (word == "smooth") smoothNormals(mesh, 180.0);
+}
+
+}  // namespace restlab

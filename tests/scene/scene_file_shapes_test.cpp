@@ -1,0 +1,127 @@
+// [[shape]] of scene files: instances of one geometry, meshes of files, normals of meshes.
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/scene.h"
+#include "core/scene/scene_file/scene_file.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace restlab {
+namespace {
+
+constexpr const char* kRoof =
+    "v -1 0 1\nv 1 0 1\nv -1 1 0\nv 1 1 0\nv -1 0 -1\nv 1 0 -1\nvt 0 0\nvt 1 0.25\n"
+    "f 1/1 2/2 4/2 3/1\nf 3/1 4/2 6/2 5/1\n";
+
+class SceneFileShapes : public ::testing::Test {
+ protected:
+  Scene load(const std::string& text) {
+    return loadScene(directory_.write("x.scene.toml", text).string());
+  }
+  std::string errorOf(const std::string& text) {
+    try {
+      load(text);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::badInput);
+      std::string line = error.what();
+      const std::string folder = directory_.path().string() + "/";
+      for (size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
+      return line;
+    }
+    return "no error";
+  }
+  test::TempDirectory directory_;
+};
+
+TEST_F(SceneFileShapes, InstancesShareOneGeometry) {
+  const Scene scene = load(R"(
+[[material]]
+name = "clay"
+kind = "diffuse"
+color = [0.7, 0.4, 0.2]
+[[shape]]
+kind = "sphere"
+name = "pearl"
+scale = 0.5
+emission = 2
+instances = [{ translate = [1, 0, 0] }, { translate = [0, 2, 0], scale = 2, material = "clay" },
+             { rotate = [0, 0, 1, 90], name = "third", emission = 3 }]
+)");
+  ASSERT_EQ(scene.geometries.size(), 1u);
+  ASSERT_EQ(scene.instances.size(), 3u);
+  EXPECT_EQ(scene.instances[0].name, "pearl 0");
+  EXPECT_EQ(scene.instances[2].name, "third");
+  // The shape's own transform comes first.
+  EXPECT_EQ(scene.instances[0].objectToWorld * glm::dvec4(1, 0, 0, 1), glm::dvec4(1.5, 0, 0, 1));
+  EXPECT_EQ(scene.instances[1].objectToWorld * glm::dvec4(0, 1, 0, 1), glm::dvec4(0, 3, 0, 1));
+  const auto materialOfInstance = [&](size_t i) {
+    return scene.materials[scene.instances[i].material];
+  };
+  EXPECT_EQ(materialOfInstance(0).data.emission.x, 2.0f);
+  EXPECT_EQ(materialOfInstance(1).data.emission.x, 0.0f);
+  EXPECT_EQ(materialOfInstance(2).data.emission.x, 3.0f);
+  EXPECT_EQ(CompiledScene::build(scene)->lampCount(), 2u);
+}
+
+TEST_F(SceneFileShapes, MeshesComeFromFiles) {
+  directory_.write("roof.obj", kRoof);
+  const Scene scene = load("[[shape]]\nfile = \"roof.obj\"\ninstances = [{}, { scale = 2 }]\n");
+  ASSERT_EQ(scene.geometries.size(), 1u);
+  EXPECT_EQ(scene.instances.size(), 2u);
+  const MeshGeometry& mesh = scene.geometries[0];
+  EXPECT_EQ(mesh.shape, nullptr);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_TRUE(mesh.normals.empty());
+  EXPECT_EQ(mesh.uvs[0][1].y, 0.75f);  // rows of images begin at the top
+  const uint64_t hash = scene.contentHash;
+  directory_.write("roof.obj", std::string(kRoof) + "# more\n");
+  EXPECT_NE(load("[[shape]]\nfile = \"roof.obj\"\ninstances = [{}, { scale = 2 }]\n").contentHash,
+            hash);
+}
+
+// The roof's ridge is an edge of 90 degrees.
+TEST_F(SceneFileShapes, NormalsFollowTheAngleOfCreases) {
+  directory_.write("roof.obj", kRoof);
+  const auto ridge = [&](const std::string& normals, const std::string& more = "") {
+    const Scene scene =
+        load("[[shape]]\nfile = \"roof.obj\"\nname = \"roof\"\n" + normals + "\n" + more);
+    const MeshGeometry& mesh = scene.geometries[0];
+    float least = 2.0f;
+    for (size_t i = 0; i < mesh.normals.size(); ++i)
+      if (mesh.positions[i].y == 1.0f) least = std::min(least, mesh.normals[i].y);
+    return least;
+  };
+  EXPECT_EQ(ridge("normals = \"flat\""), 2.0f);
+  EXPECT_EQ(ridge("normals = \"file\""), 2.0f);
+  EXPECT_NEAR(ridge("normals = 60"), std::sqrt(0.5f), 1e-6f);
+  EXPECT_NEAR(ridge("normals = 120"), 1.0f, 1e-6f);
+  EXPECT_NEAR(ridge("normals = \"smooth\""), 1.0f, 1e-6f);
+  EXPECT_NEAR(ridge("", "[[assign]]\nmesh = \"ro*\"\nnormals = 120.0\n"), 1.0f, 1e-6f);
+  EXPECT_EQ(ridge("normals = 120", "[[assign]]\nmesh = \"roof\"\nnormals = \"flat\"\n"), 2.0f);
+}
+
+TEST_F(SceneFileShapes, ErrorsSayWhatIsWrong) {
+  const std::string sphere = "[[shape]]\nkind = \"sphere\"\nname = \"ball\"\n";
+  EXPECT_EQ(errorOf(sphere + "instances = [{ translat = [0, 0, 0] }]\n"),
+            "x.scene.toml:4:16: unknown key 'translat', did you mean 'translate'?");
+  EXPECT_EQ(errorOf(sphere + "file = \"a.obj\"\n"),
+            "x.scene.toml:2:8: 'kind' beside 'file': a shape or a mesh, one of them");
+  EXPECT_EQ(errorOf("[[shape]]\nfile = \"a.stl\"\n"),
+            "x.scene.toml:2:8: 'a.stl' is no mesh that is read; an .obj or a .ply expected");
+  EXPECT_EQ(errorOf(sphere + "[[assign]]\nmesh = \"ball\"\nnormals = 30\n"),
+            "x.scene.toml:6:11: 'ball' is a shape, which has the normals of its equation; a mesh "
+            "expected");
+  EXPECT_EQ(errorOf(sphere + "[[assign]]\nnode = \"ball\"\nnormals = 30\n"),
+            "x.scene.toml:6:11: 'normals' are of a mesh; name it by 'mesh'");
+  directory_.write("roof.obj", kRoof);
+  EXPECT_NE(errorOf("[[shape]]\nfile = \"roof.obj\"\nnormals = 200\n").find("x.scene.toml:3:11"),
+            std::string::npos);
+  EXPECT_NE(errorOf("[[shape]]\nfile = \"roof.obj\"\nnormals = \"round\"\n").find("smooth"),
+            std::string::npos);
+  EXPECT_NE(errorOf("[[shape]]\nfile = \"../roof.obj\"\n").find("x.scene.toml:2:8"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace restlab
