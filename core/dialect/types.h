@@ -235,9 +235,15 @@ struct Camera {
   vec3 upW;
   float halfHeight;
   vec3 forwardW;
-  float padding;
+  // The film's centre, to the right and up, in the unit of halfWidth: other than 0 where the film
+  // is a part of a larger one.
+  float shiftX;
+  float shiftY;
+  float padding0;
+  float padding1;
+  float padding2;
 };
-RL_STATIC_ASSERT_SIZE(Camera, 64);
+RL_STATIC_ASSERT_SIZE(Camera, 80);
 
 RL_REF(FloatRef, float)
 RL_REF(UintRef, uint)
@@ -344,7 +350,7 @@ struct FrameData {
   uint padding;
   UintRef drawnLights;  // a word a light: 1 once a light sample was drawn from it; or null
 };
-RL_STATIC_ASSERT_SIZE(FrameData, 208);
+RL_STATIC_ASSERT_SIZE(FrameData, 240);
 
 // Numerical health: counters that every kernel adds to; names in core/frame/session.cpp.
 const uint RL_HEALTH_NONFINITE = 0u;          // non-finite sample values set to zero

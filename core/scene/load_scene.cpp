@@ -123,7 +123,40 @@ std::optional<std::string> variantOf(const std::string& settings, const std::str
   return settings.substr(key.size());
 }
 
+// Folders in which a name is looked for.
+std::vector<fs::path> foldersFor(const fs::path& path) {
+  std::vector<fs::path> folders = {""};
+  if (path.is_absolute()) return folders;
+  const char* scenes = std::getenv("RESTLAB_SCENES");
+  if (scenes != nullptr && *scenes != '\0') folders.emplace_back(scenes);
+  folders.emplace_back("../shared/scenes");
+  return folders;
+}
+
+// `depth`: of scene files that begin with each other.
+std::optional<uint32_t> bouncesOfFile(const fs::path& file, const std::string& settings,
+                                      int depth) {
+  if (isMitsubaFile(file)) return bouncesOfMitsuba(file, settings);
+  if (!isSceneFile(file) || depth > 8) return {};
+  const std::string base = ConfigTable::parseFile(file).getString("base", "");
+  if (base.empty() || isBuiltinScene(base)) return {};
+  const auto [name, ofBase] = splitSceneSettings(base);
+  const fs::path beside = file.parent_path() / name;
+  std::error_code error;
+  if (fs::exists(beside, error)) return bouncesOfFile(resolve(beside), ofBase, depth + 1);
+  return suggestedBounces(base);
+}
+
 }  // namespace
+
+std::optional<uint32_t> suggestedBounces(const std::string& nameOrPath) {
+  if (nameOrPath.empty() || isBuiltinScene(nameOrPath)) return {};
+  const auto [name, settings] = splitSceneSettings(nameOrPath);
+  for (const fs::path& folder : foldersFor(name))
+    if (const fs::path file = resolve(folder / name); !file.empty())
+      return bouncesOfFile(file, settings, 0);
+  return {};
+}
 
 Scene loadScene(const std::string& nameOrPath) {
   if (nameOrPath.empty()) failInput("scene: the name is empty; a built-in or a path expected");
@@ -131,13 +164,7 @@ Scene loadScene(const std::string& nameOrPath) {
   if (isBuiltinScene(nameOrPath)) return makeBuiltinScene(nameOrPath);
   const auto [name, settings] = splitSceneSettings(nameOrPath);
   const fs::path path(name);
-  std::vector<fs::path> folders = {""};
-  if (path.is_relative()) {
-    if (const char* scenes = std::getenv("RESTLAB_SCENES"); scenes && *scenes) {
-      folders.emplace_back(scenes);
-    }
-    folders.emplace_back("../shared/scenes");
-  }
+  const std::vector<fs::path> folders = foldersFor(path);
   std::vector<std::string> near = builtins;
   std::string tried, namesake;
   for (const fs::path& folder : folders) {

@@ -96,7 +96,11 @@ struct SceneCamera {
   double yfov = 0.8;              // radians (perspective)
   double xmag = 1.0, ymag = 1.0;  // half extents in metres (orthographic)
   double aspect = 0.0;            // width / height, 0: free
-  double znear = 0.0;  // metres, from the file; no clipping, only warnings (camera_path.h)
+  // The film's centre, to the right and up: a tangent (perspective) or metres (orthographic). Other
+  // than 0 where the film is a part of a larger one.
+  glm::dvec2 shift{0.0};
+  glm::uvec2 film{0u};  // pixels that images have unless others are asked for; 0: the file has none
+  double znear = 0.0;   // metres, from the file; no clipping, only warnings (camera_path.h)
 };
 inline glm::dvec3 positionOf(const SceneCamera& camera) {
   return glm::dvec3(camera.cameraToWorld[3]);
@@ -134,7 +138,8 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<std::shared_ptr<const ClosureTable>> tables;
   std::vector<SceneCamera>
-      cameras;              // never empty after loading: one is made when the file has none
+      cameras;  // never empty after loading: one is made when the file has none
+  std::optional<uint32_t> maxBounces;  // taken unless others are asked for; the file's integrator
   uint32_t mainCamera = 0;  // its view is the most precise (core/scene/compiled/scene_origin.h)
   std::vector<PunctualLight> lights;
   std::optional<EnvironmentMap> environment;
@@ -156,13 +161,15 @@ struct Scene {
 // Error (badInput) with one line.
 Scene loadGltf(const std::filesystem::path& file, const std::optional<std::string>& variant = {});
 
-// Numeric parameter in the name of a built-in scene, "furnace?albedo=0.9"
+// Parameter in the name of a built-in scene, "furnace?albedo=0.9"
 // (core/scene/builtin/name.h).
 struct SceneParameter {
   std::string name;
   std::optional<double> fallback;  // absent: `summary` says what applies if not given
   double lo = 0.0, hi = 0.0;       // inclusive
   std::string summary;
+  // Names of the values 0, 1, 2, ...: the only ones that it takes. Empty: it takes numbers.
+  std::vector<std::string> choices{};
 };
 
 // Makes a built-in scene; the name is one of builtinSceneNames(), with or without parameters behind
@@ -180,6 +187,10 @@ std::vector<SceneParameter> builtinSceneParameters(const std::string& name);
 // under RESTLAB_SCENES, then under
 // ../shared/scenes; a directory or a stem finds the one scene inside. Throws Error (badInput).
 Scene loadScene(const std::string& nameOrPath);
+
+// Scene::maxBounces of a scene, found as loadScene() finds it, without loading all of it. nullopt
+// also if there is no such scene. Throws as loadScene() where a file is damaged.
+std::optional<uint32_t> suggestedBounces(const std::string& nameOrPath);
 
 // Reads a latitude-longitude .hdr or .exr, or an .exr that declares itself a cube. Negative and
 // non-finite texels are an error.

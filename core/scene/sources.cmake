@@ -82,6 +82,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/door.cpp
   scene/builtin/floor.cpp
   scene/builtin/furnace.cpp
+  scene/builtin/shapes.cpp
   scene/builtin/gallery.cpp
   scene/builtin/glass.cpp
   scene/builtin/many_lights.cpp
@@ -93,6 +94,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/shell.cpp
   scene/builtin/sky.cpp
   scene/mitsuba/bsdf.cpp
+  scene/mitsuba/bump.cpp
   scene/mitsuba/bsdf_kinds.cpp
   scene/mitsuba/document.cpp
   scene/mitsuba/emitters.cpp
@@ -113,6 +115,7 @@ add_library(rl_scene_files OBJECT
   scene/gltf_write/materials.cpp
   scene/gltf_write/nodes.cpp
   scene/gltf_write/write.cpp
+  scene/scene_write/scene_write.cpp
 )
 target_link_libraries(rl_scene_files PRIVATE rl_options embree TBB::tbb glm::glm fmt::fmt Threads::Threads
                       nlohmann_json::nlohmann_json OpenEXR::OpenEXR draco::draco meshoptimizer::meshoptimizer

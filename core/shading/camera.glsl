@@ -1,8 +1,8 @@
 // Cameras: pixel to ray and back. Film coordinates are in pixels, (0, 0) the upper left corner.
 
 RL_FN Ray cameraRay(RL_IN(Camera) camera, RL_IN(vec2) film, RL_IN(vec2) resolution) {
-  float x = (2.0f * film.x / resolution.x - 1.0f) * camera.halfWidth;
-  float y = (1.0f - 2.0f * film.y / resolution.y) * camera.halfHeight;
+  float x = (2.0f * film.x / resolution.x - 1.0f) * camera.halfWidth + camera.shiftX;
+  float y = (1.0f - 2.0f * film.y / resolution.y) * camera.halfHeight + camera.shiftY;
   Ray ray;
   ray.tMin = 0.0f;
   ray.tMax = 3.0e38f;
@@ -29,8 +29,8 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
     x /= z;
     y /= z;
   }
-  film = vec2((x / camera.halfWidth + 1.0f) * 0.5f * resolution.x,
-              (1.0f - y / camera.halfHeight) * 0.5f * resolution.y);
+  film = vec2(((x - camera.shiftX) / camera.halfWidth + 1.0f) * 0.5f * resolution.x,
+              (1.0f - (y - camera.shiftY) / camera.halfHeight) * 0.5f * resolution.y);
   return true;
 }
 

@@ -35,6 +35,7 @@ struct BenchOptions {
   uint32_t frames = 16;
   uint64_t referenceSpp = 128;
   double seconds = 1.0;
+  bool raysAlone = false;
   bool json = false;
 };
 
@@ -229,6 +230,19 @@ Json ratesJson(const BackendRates& rates, const std::string& backend, const std:
           {"copied_bytes_per_second", rates.bytesPerSecond}};
 }
 
+void printRates(const Json& backends) {
+  print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n", "kernels",
+        "rays by", "primary", "shadow", "incoherent");
+  for (const Json& rates : backends) {
+    print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
+          rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
+          rates["primary_rays_per_second"].get<double>() / 1e6,
+          rates["shadow_rays_per_second"].get<double>() / 1e6,
+          rates["incoherent_rays_per_second"].get<double>() / 1e6,
+          rates["copied_bytes_per_second"].get<double>() / 1e9, rates["device"].get<std::string>());
+  }
+}
+
 void printMeasured(const Json& json) {
   const Json& embree = json["embree_rays_per_second"];
   print("{}, {}x{}, {} scattering events; {}\n\n", json["scene"].get<std::string>(),
@@ -238,16 +252,7 @@ void printMeasured(const Json& json) {
   for (const char* kind : {"primary", "shadow", "incoherent"}) {
     print("  {:<14} {:8.2f}\n", kind, embree[kind].get<double>() / 1e6);
   }
-  print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n", "kernels",
-        "rays by", "primary", "shadow", "incoherent");
-  for (const Json& rates : json["backends"]) {
-    print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
-          rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
-          rates["primary_rays_per_second"].get<double>() / 1e6,
-          rates["shadow_rays_per_second"].get<double>() / 1e6,
-          rates["incoherent_rays_per_second"].get<double>() / 1e6,
-          rates["copied_bytes_per_second"].get<double>() / 1e9, rates["device"].get<std::string>());
-  }
+  printRates(json["backends"]);
   print("\n{:<10} {:<9} {:<8} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>9} {:>8}\n", "integrator",
         "mode", "backend", "ms/frame", "p95", "Mpix/s", "Mpix/CPU-s", "rays/px", "Mrays/s",
         "Embree %", "bytes/px");
@@ -294,6 +299,31 @@ void printMeasured(const Json& json) {
   print("peak resident memory {:.0f} MiB\n", json["peak_resident_mib"].get<double>());
 }
 
+// Measures lines across the scene on the backends of `configs`, in turns.
+void benchLines(const PreparedScene& prepared, const std::vector<SessionConfig>& configs,
+                const BenchOptions& options) {
+  const RaySets rays = makeLines(prepared, configs[0].width, configs[0].height);
+  Json backends = Json::array();
+  for (const SessionConfig& c : configs) {
+    const BackendOptions chosen{c.threads, c.device, c.rayTracing, c.validate};
+    const std::unique_ptr<Backend> backend = makeBackend(c.backend, prepared.scene, chosen);
+    backends.push_back(ratesJson(measureBackend(prepared, c.backend, chosen, rays, options.seconds),
+                                 c.backend, backend->device(), backend->rayTracing()));
+  }
+  if (options.json) {
+    printJsonText(Json{
+        {"scene", prepared.scene->source().name},
+        {"machine", machineJson()},
+        {"build", buildJson()},
+        {"backends",
+         backends}}.dump(2));
+  } else {
+    print("{}: rays of the camera, and lines between points of a sphere around the scene\n",
+          prepared.scene->source().name);
+    printRates(backends);
+  }
+}
+
 void bench(BenchOptions options) {
   resolveResolution(options.scene);
   if (!options.scene.width && !options.scene.height)
@@ -303,7 +333,7 @@ void bench(BenchOptions options) {
   MethodOptions chosen;
   chosen.backend = options.backend;
   SessionConfig config = makeConfig(options.scene, chosen);
-  completeConfig(prepared, config);
+  completeConfig(prepared, options.scene, config);
   // Measure the requested backend and the CPU, interleaved.
   std::vector<SessionConfig> configs = {config};
   if (config.backend != "cpu") {
@@ -315,10 +345,11 @@ void bench(BenchOptions options) {
     configs.insert(configs.begin(), cpu);
   }
 
+  if (options.raysAlone) return benchLines(prepared, configs, options);
   if ((prepared.scene->features() & rl::RL_FEATURE_SHAPES) != 0)
     failUsage(
-        fmt::format("bench {}: rays alone are measured on triangles, and this scene has "
-                    "shapes; render and run time its frames",
+        fmt::format("bench {}: frames are compared with rays among triangles, and this scene has "
+                    "shapes; give --rays-alone, or time frames with run",
                     prepared.scene->source().name));
   logInfo("measuring rays alone");
   const RaySets rays = makeRays(prepared, config.width, config.height);
@@ -390,6 +421,8 @@ Action addBenchVerb(CLI::App& app) {
       ->transform(numberFrom(0.01, 600.0, "seconds"));
   verb->add_option("--reference-spp", options->referenceSpp, "for the error (default 128)")
       ->transform(wholeNumberFrom(2, uint64_t(1) << 20));
+  verb->add_flag("--rays-alone", options->raysAlone,
+                 "rays of the camera and lines across the scene, and nothing else");
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { bench(*options); };
 }

@@ -69,8 +69,10 @@ RTCRayHit traceClosest(RTCScene scene, const RayBatch& rays, size_t i) {
 RayBatch cameraRays(const rl::Camera& camera, uint32_t width, uint32_t height) {
   RayBatch rays;
   const auto add = [&](uint32_t x, uint32_t y) {
-    const float u = (2.0f * (float(x) + 0.5f) / float(width) - 1.0f) * camera.halfWidth;
-    const float v = (1.0f - 2.0f * (float(y) + 0.5f) / float(height)) * camera.halfHeight;
+    const float u =
+        (2.0f * (float(x) + 0.5f) / float(width) - 1.0f) * camera.halfWidth + camera.shiftX;
+    const float v =
+        (1.0f - 2.0f * (float(y) + 0.5f) / float(height)) * camera.halfHeight + camera.shiftY;
     const glm::vec3 aside = camera.rightW * u + camera.upW * v;
     if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
       addRay(rays, camera.posW + aside, camera.forwardW);
@@ -86,6 +88,11 @@ RayBatch cameraRays(const rl::Camera& camera, uint32_t width, uint32_t height) {
     }
   }
   return rays;
+}
+
+rl::Camera cameraOf(const PreparedScene& prepared, uint32_t width, uint32_t height) {
+  const CompiledScene& compiled = *prepared.scene;
+  return compiled.camera(compiled.source().cameras.at(prepared.camera), width, height);
 }
 
 std::vector<HitPoint> hitPoints(RTCScene scene, const RayBatch& rays) {
@@ -191,13 +198,27 @@ double rate(size_t count, int threads, double seconds, const Trace& trace) {
 
 }  // namespace
 
+RaySets makeLines(const PreparedScene& prepared, uint32_t width, uint32_t height) {
+  RaySets rays;
+  rays.primary = cameraRays(cameraOf(prepared, width, height), width, height);
+  const std::array<glm::dvec3, 2> bounds = worldBounds(prepared.scene->source());
+  const glm::vec3 centre(0.5 * (bounds[0] + bounds[1]) - prepared.scene->origin());
+  const auto radius = float(0.5 * glm::distance(bounds[0], bounds[1]));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  for (size_t i = 0; i < rays.primary.size(); ++i) {
+    const glm::vec3 from = centre + radius * uniformDirection(random, unit);
+    const glm::vec3 to = centre + radius * uniformDirection(random, unit);
+    if (from != to) addRay(rays.incoherent, from, glm::normalize(to - from));
+  }
+  return rays;
+}
+
 RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height) {
   const CompiledScene& compiled = *prepared.scene;
   const auto scene = static_cast<RTCScene>(compiled.embreeScene());
-  const rl::Camera camera =
-      compiled.camera(compiled.source().cameras.at(prepared.camera), width, height);
   RaySets rays;
-  rays.primary = cameraRays(camera, width, height);
+  rays.primary = cameraRays(cameraOf(prepared, width, height), width, height);
   const std::vector<HitPoint> points = hitPoints(scene, rays.primary);
   rays.incoherent = bounceRays(points);
   rays.shadow = lightRays(points, compiled.data());

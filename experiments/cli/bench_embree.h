@@ -22,6 +22,10 @@ struct RaySets {
 // Makes rays from the scene's camera; Embree finds the hits.
 RaySets makeRays(const PreparedScene& prepared, uint32_t width, uint32_t height);
 
+// Rays that need no hits: from the camera, and as incoherent ones lines between random points of a
+// sphere around the scene.
+RaySets makeLines(const PreparedScene& prepared, uint32_t width, uint32_t height);
+
 // Times only queries of core/backend/embree.h, on `threads` threads (0: all). Repeats each kind for
 // at least `seconds` and uses the median repetition.
 EmbreeRates measureEmbree(const PreparedScene& prepared, const RaySets& rays, int threads,

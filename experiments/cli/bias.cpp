@@ -132,7 +132,7 @@ Question questionOf(BiasOptions options) {
   question.config = given;
   if (question.config.width == 0 && question.config.height == 0)
     question.config.width = kDefaultWidth;
-  completeConfig(question.prepared, question.config);
+  completeConfig(question.prepared, options.scene, question.config);
   const Method method = findMethod(question.config);
   const bool hasHistory = method.hasHistory(question.config.parameters);
   question.frames = options.frames;

@@ -210,7 +210,7 @@ void graph(GraphOptions& options) {
   SessionConfig config = makeConfig(options.scene, options.method);
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
-  completeConfig(prepared, config);
+  completeConfig(prepared, options.scene, config);
   const MeasuredFrames frames = measure(prepared, config);
   if (options.json) {
     printJsonText(graphJson(frames).dump(2, ' ', false, Json::error_handler_t::replace));

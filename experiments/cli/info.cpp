@@ -57,6 +57,8 @@ Json camerasJson(const Scene& scene, std::optional<size_t> only) {
       json["half_extent_m"] = {camera.xmag, camera.ymag};
     }
     json["aspect"] = camera.aspect;
+    if (camera.shift != glm::dvec2(0.0)) json["shift"] = {camera.shift.x, camera.shift.y};
+    if (camera.film.x > 0) json["film_pixels"] = {camera.film.x, camera.film.y};
     // Position, forward and up axis for other programs. Axes as in CompiledScene::camera,
     // normalised: a node may scale or shear.
     const glm::dmat3 axes(camera.cameraToWorld);
@@ -124,6 +126,7 @@ Json sceneJson(const PreparedScene& prepared, const InfoOptions& options) {
                       {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
   }
   json["lights"] = lights;
+  json["max_bounces"] = scene.maxBounces ? Json(*scene.maxBounces) : Json();
   json["closures"] = closuresOfScene(scene);
   json["variants"] = scene.variants;
   json["variant"] = scene.variant ? Json(*scene.variant) : Json();
@@ -196,9 +199,13 @@ void printScene(const PreparedScene& prepared, const Json& json) {
                             glm::degrees(camera["yfov_radians"].get<double>()))
               : "",
           camera.contains("mirrored") ? ", mirrored left to right" : "");
+    if (camera.contains("film_pixels"))
+      print("{:<12} a film of {}x{} pixels\n", "", camera["film_pixels"][0].get<uint32_t>(),
+            camera["film_pixels"][1].get<uint32_t>());
     for (const Json& warning : camera["warnings"])
       print("{:<12} {}\n", "", warning.get<std::string>());
   }
+  if (scene.maxBounces) print("max_bounces  {} unless given\n", *scene.maxBounces);
   for (const PunctualLight& light : scene.lights) {
     print("light        '{}' {} ({:g}, {:g}, {:g})\n", oneLine(light.name), lightKind(light.kind),
           light.intensity.x, light.intensity.y, light.intensity.z);

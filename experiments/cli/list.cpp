@@ -59,6 +59,7 @@ Json scenes() {
       parameters.push_back({{"name", parameter.name},
                             {"default", parameter.fallback ? Json(*parameter.fallback) : Json()},
                             {"range", {parameter.lo, parameter.hi}},
+                            {"choices", parameter.choices},
                             {"help", parameter.summary}});
     }
     all.push_back({{"name", name},
@@ -82,6 +83,13 @@ void printSceneParameters(const Json& all, const Json& parameters, const char* i
       return std::find(its.begin(), its.end(), parameter) != its.end();
     });
     if (isOfAll != (*indent == '\0')) continue;
+    if (!parameter["choices"].empty()) {
+      const std::vector<std::string> choices = parameter["choices"];
+      print("{}?{}={}: {}; one of {}\n", indent, parameter["name"].get<std::string>(),
+            choices.front(), parameter["help"].get<std::string>(),
+            fmt::format("{}", fmt::join(choices, ", ")));
+      continue;
+    }
     const std::string value =
         parameter["default"].is_null() ? "" : "=" + parameter["default"].dump();
     print("{}?{}{} in {:g}..{:g}: {}\n", indent, parameter["name"].get<std::string>(), value,

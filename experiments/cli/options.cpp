@@ -224,9 +224,10 @@ void addSceneOptions(CLI::App& verb, SceneOptions& options) {
                   "a glTF, Mitsuba or scene file, or a built-in scene (restlab list scenes)")
       ->required();
   addSceneSettings(verb, request.scene);
-  verb.add_option("--resolution", options.resolution,
-                  "WxH pixels (default: 512 wide, the camera's "
-                  "aspect ratio)");
+  verb.add_option(
+      "--resolution", options.resolution,
+      "WxH pixels (default: the film's of a Mitsuba file, else 512 wide, the camera's aspect "
+      "ratio)");
   verb.add_option("--width", options.width, "pixels")->transform(wholeNumberFrom(1, kMaxSide));
   verb.add_option("--height", options.height, "pixels")->transform(wholeNumberFrom(1, kMaxSide));
   verb.add_option("--seed", options.seed, "random seed (default 1)")
@@ -293,7 +294,10 @@ SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method)
   return config;
 }
 
-void completeConfig(const PreparedScene& prepared, SessionConfig& config) {
+void completeConfig(const PreparedScene& prepared, const SceneOptions& options,
+                    SessionConfig& config) {
+  const std::optional<uint32_t>& bounces = prepared.scene->source().maxBounces;
+  if (bounces && !options.transport.contains("max_bounces")) config.maxBounces = *bounces;
   config.camera = prepared.camera;
   completeResolution(prepared, config.width, config.height);
 }

@@ -73,9 +73,11 @@ void applyBackend(const BackendChoice& choice, SessionConfig& config);
 // Sets width and height from --resolution, --width, --height; 0 if not given. Throws badUsage.
 void resolveResolution(SceneOptions& options);
 
-// Returns a validated configuration; camera and size come from the scene. Throws badUsage.
+// Returns a validated configuration. completeConfig() adds what comes from the scene: the camera,
+// and the size and the bounces where none are given. Throws badUsage.
 SessionConfig makeConfig(const SceneOptions& scene, const MethodOptions& method);
-void completeConfig(const PreparedScene& prepared, SessionConfig& config);
+void completeConfig(const PreparedScene& prepared, const SceneOptions& options,
+                    SessionConfig& config);
 
 struct OutputFile {
   std::string option;  // as the user named it, for error messages

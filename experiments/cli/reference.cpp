@@ -84,7 +84,7 @@ void makeReference(ReferenceOptions options) {
 
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
-  completeConfig(prepared, session);
+  completeConfig(prepared, options.scene, session);
   requireExrSize(options.output, session.width, session.height, kReferenceLayers);
   const Reference reference = updatedReference(prepared, referenceConfigOf(session), options);
   if (options.target.relmse > 0.0 && !(reference.relmseSinceHalf <= options.target.relmse)) {

@@ -203,7 +203,7 @@ void render(RenderOptions options) {
 
   const PreparedScene prepared = prepareScene(options.scene.request);
   printWarnings(prepared);
-  completeConfig(prepared, config);
+  completeConfig(prepared, options.scene, config);
   if (pixel) requireInside(*pixel, config);
   if (isWritten)
     requireExrSize(options.output, config.width, config.height, 1 + uint32_t(aovs.size()));

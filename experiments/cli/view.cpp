@@ -82,7 +82,7 @@ void requireNoOptions(const CLI::App& verb, const std::string& file,
   }
 }
 
-void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
+void chooseSize(const PreparedScene& prepared, const SceneOptions& options, SessionConfig& config) {
   if (config.width == 0 && config.height == 0) {
     const double aspect = prepared.scene->source().cameras.at(prepared.camera).aspect;
     config.width = kWidth;
@@ -92,7 +92,7 @@ void chooseSize(const PreparedScene& prepared, SessionConfig& config) {
       config.height = kHeight;  // screens are wide
     }
   }
-  completeConfig(prepared, config);
+  completeConfig(prepared, options, config);
 }
 
 // Adds images beside the methods; pane B shows the first one.
@@ -123,7 +123,7 @@ ViewStart startOfMethods(ViewOptions& options) {
   start.request = options.scene.request;
   addImages(options, start, panes);
   start.prepared = prepareScene(start.request);
-  for (SessionConfig& config : panes) chooseSize(start.prepared, config);
+  for (SessionConfig& config : panes) chooseSize(start.prepared, options.scene, config);
   start.settings = settingsOf(start.prepared, panes);
   requireSizeOf(start.images, start.settings, true);
   if (!options.anyReference) requireImagesOf(start);

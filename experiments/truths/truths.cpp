@@ -56,14 +56,26 @@ Pixels sphereFurnaceImage(const Scene& scene, const ExactView& view) {
   return constantImage(view, double(scene.environment->lightFactor));
 }
 
+std::string whyNotShapeFurnace(const Scene& scene, const ExactView& view) {
+  if (scene.environment->lightFactor != scene.materials.at(0).lightFactor)
+    return "of lights of which some are switched";
+  // The light behind the n-th event is at most 2^-(n + 1).
+  return view.scatteringEvents < 16 ? "at less than 16 scattering events" : "";
+}
+
+Pixels shapeFurnaceImage(const Scene& scene, const ExactView& view) {
+  return constantImage(view, double(scene.environment->lightFactor));
+}
+
 struct Truth {
   const char* scene;
   std::string (*whyNot)(const Scene&, const ExactView&);
   Pixels (*image)(const Scene&, const ExactView&);
 };
 
-constexpr std::array<Truth, 5> kTruths{{{"furnace", whyNotFurnace, furnaceImage},
+constexpr std::array<Truth, 6> kTruths{{{"furnace", whyNotFurnace, furnaceImage},
                                         {"sphere-furnace", whyNotSphereFurnace, sphereFurnaceImage},
+                                        {"shape-furnace", whyNotShapeFurnace, shapeFurnaceImage},
                                         {"floor", whyNotFloor, floorImage},
                                         {"media", whyNotMedia, mediaImage},
                                         {"quad-light", whyNotQuadLight, quadLightImage}}};

@@ -326,7 +326,7 @@ bool isSameSize(const SessionConfig& a, const SessionConfig& b) {
 
 bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
   return a.kind == b.kind && a.cameraToWorld == b.cameraToWorld && a.isMirrored == b.isMirrored &&
-         a.yfov == b.yfov && a.xmag == b.xmag && a.ymag == b.ymag;
+         a.yfov == b.yfov && a.xmag == b.xmag && a.ymag == b.ymag && a.shift == b.shift;
 }
 
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {

@@ -15,7 +15,7 @@ namespace restlab::analytic {
 namespace {
 
 constexpr ExactView kSmall{.width = 2, .height = 2, .scatteringEvents = 1};
-constexpr ExactView kDeep{.width = 2, .height = 2, .scatteringEvents = 8};
+constexpr ExactView kDeep{.width = 2, .height = 2, .scatteringEvents = 16};
 
 TEST(Furnace, SumsOfTheGeometricSeries) {
   EXPECT_EQ(furnaceRadiance(0.5, 0.5, 0), 0.5);

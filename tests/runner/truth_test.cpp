@@ -63,10 +63,12 @@ TEST(Truth, WhatItIsNotKnownOfIsSaid) {
   };
   expectWhy(why(Truth::exact, requestOf("cornell-box"), smallConfig()),
             "cornell-box has no exact image (scenes that have one: furnace, sphere-furnace, "
-            "floor, media, quad-light)");
+            "shape-furnace, floor, media, quad-light)");
   EXPECT_EQ(why(Truth::same, requestOf("cornell-box?scale=2"), smallConfig()), "");
   expectWhy(why(Truth::exact, requestOf("sphere-furnace"), smallConfig(0)),
             "at 0 scattering events");
+  expectWhy(why(Truth::exact, requestOf("shape-furnace?kind=cone"), smallConfig(8)),
+            "at less than 16 scattering events");
   expectWhy(why(Truth::exact, requestOf("sphere-furnace?roughness=0.5"), smallConfig()),
             "of rough metal without multiscatter");
   expectWhy(why(Truth::exact, requestOf("quad-light?fov=120"), smallConfig()),

@@ -36,6 +36,12 @@ TEST(BuiltinName, NumbersAndPowers) {
   EXPECT_EQ(parseBuiltinName("furnace").value("albedo"), 0.5);
 }
 
+TEST(BuiltinName, ChoicesGoByName) {
+  EXPECT_EQ(parseBuiltinName("shape-furnace?kind=disk").value("kind"), 1.0);
+  EXPECT_EQ(parseBuiltinName("shape-furnace").value("kind"), 0.0);
+  EXPECT_EQ(withoutRelations("shape-furnace?kind=disk&as=mesh&scale=2"), "shape-furnace?kind=disk");
+}
+
 TEST(BuiltinName, MistakesAreOneLine) {
   const auto expectError = [](const std::string& name, const std::string& words) {
     const std::string error = errorOf(name);
@@ -53,6 +59,9 @@ TEST(BuiltinName, MistakesAreOneLine) {
   expectError("furnace?albedo=2^2^2", "not a number");
   expectError("furnace?", "no parameter ''");
   expectError("furnace?scale=2&scale=2", "'scale' is given twice");
+  expectError("ball?as=spere", "as is 'spere', not one of sphere, ");
+  expectError("ball?as=spere", "did you mean 'sphere'?");
+  expectError("ball?as=0", "as is '0', not one of sphere, ");
   expectError("furnase?albedo=0.5",
               "no built-in scene is named 'furnase'; did you mean 'furnace'?");
 }
@@ -127,6 +136,9 @@ TEST(BuiltinName, EveryParameterWorksAtBothEnds) {
   for (const std::string& scene : builtinSceneNames()) {
     for (const SceneParameter& parameter : builtinSceneParameters(scene)) {
       EXPECT_FALSE(parameter.summary.empty());
+      for (const std::string& choice : parameter.choices)
+        makeBuiltinScene(scene + "?" + parameter.name + "=" + choice);
+      if (!parameter.choices.empty()) continue;
       for (const double value : {parameter.lo, parameter.hi}) {
         const std::string name = scene + "?" + parameter.name + "=" + std::to_string(value);
         // std::to_string() gives six digits behind the point: write small values as 1e-4 instead.

@@ -211,7 +211,9 @@ TEST_F(MitsubaBsdf, MasksAndNothing) {
   EXPECT_NE(firstMaterial(leaf).data.flags & rl::RL_MATERIAL_DIFFUSE_TRANSMISSION, 0u);
   const Scene bumps = sceneOf(
       "<bsdf type=\"bumpmap\"><texture type=\"checkerboard\"/><bsdf type=\"diffuse\"/></bsdf>");
-  EXPECT_TRUE(test::warns(bumps, "heights are not read"));
+  EXPECT_TRUE(test::notes(bumps, "heights are drawn as a map of normals"));
+  const rl::Material& bumped = bumps.materials.at(bumps.instances.at(0).material).data;
+  EXPECT_NE(bumped.textures[rl::RL_TEX_NORMAL], rl::RL_INVALID);
 }
 
 // The colour of a use at texture coordinates, as kernels find the texel.

@@ -197,6 +197,54 @@ TEST_F(MitsubaValues, FieldsOfView) {
   EXPECT_NEAR(flat.ymag, 1.5, 1e-9);
 }
 
+TEST_F(MitsubaValues, BouncesOfIntegrators) {
+  const auto bounces = [&](const std::string& integrator) {
+    const Scene scene = folder_.load(integrator + rectangleWith(""));
+    EXPECT_EQ(suggestedBounces((folder_.path() / "x.xml").string()), scene.maxBounces);
+    return scene.maxBounces;
+  };
+  const std::string depth = "<integer name=\"maxDepth\" value=\"4\"/></integrator>";
+  EXPECT_EQ(bounces("<integrator type=\"volpath\">" + depth), 3u);
+  EXPECT_EQ(
+      bounces("<integrator type=\"aov\"><integrator type=\"path\">" + depth + "</integrator>"), 3u);
+  EXPECT_EQ(bounces("<integrator type=\"direct\"/>"), 1u);
+  EXPECT_EQ(bounces("<integrator type=\"path\"/>"), std::nullopt);
+  EXPECT_EQ(bounces(""), std::nullopt);
+  folder_.write("y.scene.toml", "base = \"x.xml\"\n");
+  folder_.load("<integrator type=\"path\">" + depth + rectangleWith(""));
+  EXPECT_EQ(suggestedBounces((folder_.path() / "y.scene.toml").string()), 3u);
+  EXPECT_EQ(suggestedBounces("no-such-scene"), std::nullopt);
+}
+
+// The middle of a window of 100 x 50 pixels at (300, 0) of a film of 400 x 200 pixels is 150 pixels
+// to the right of the film's and 75 above it, and the principal point moves it by 40 and 20.
+TEST_F(MitsubaValues, WindowsOfTheFilm) {
+  const auto camera = [&](const std::string& type, const std::string& more) {
+    return folder_
+        .load("<sensor type=\"" + type + "\"><float name=\"fov\" value=\"90\"/>" + more +
+              "<film type=\"hdrfilm\"><integer name=\"width\" value=\"400\"/><integer "
+              "name=\"height\" value=\"200\"/><integer name=\"crop_offset_x\" value=\"300\"/>"
+              "<integer name=\"crop_width\" value=\"100\"/><integer name=\"crop_height\" "
+              "value=\"50\"/></film></sensor>" +
+              rectangleWith(""))
+        .cameras.at(0);
+  };
+  const SceneCamera plain = camera("perspective", "");
+  EXPECT_EQ(plain.film, glm::uvec2(100, 50));
+  EXPECT_NEAR(std::tan(0.5 * plain.yfov), 50.0 / 400.0, 1e-9);
+  EXPECT_NEAR(plain.aspect, 2.0, 1e-9);
+  EXPECT_NEAR(plain.shift.x, 150.0 / 200.0, 1e-9);
+  EXPECT_NEAR(plain.shift.y, 75.0 / 200.0, 1e-9);
+  const SceneCamera moved = camera("perspective",
+                                   "<float name=\"principal_point_offset_x\" value=\"0.1\"/><float "
+                                   "name=\"principal_point_offset_y\" value=\"-0.1\"/>");
+  EXPECT_NEAR(moved.shift.x, 190.0 / 200.0, 1e-9);
+  EXPECT_NEAR(moved.shift.y, 95.0 / 200.0, 1e-9);
+  const SceneCamera flat = camera("orthographic", "");
+  EXPECT_NEAR(flat.xmag, 0.25, 1e-9);
+  EXPECT_NEAR(flat.shift.x, 0.75, 1e-9);
+}
+
 TEST_F(MitsubaValues, WhatASensorHasBesideIsSaid) {
   const Scene scene = folder_.load(
       "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/><boolean "
@@ -205,8 +253,10 @@ TEST_F(MitsubaValues, WhatASensorHasBesideIsSaid) {
       "name=\"aperture_radius\" value=\"0.1\"/><float name=\"focus_distance\" value=\"3\"/>"
       "<sampler type=\"independent\"/></sensor>" +
       rectangleWith(""));
-  EXPECT_TRUE(test::notes(scene, "max_depth 6 is --max-bounces 5"));
-  EXPECT_TRUE(test::notes(scene, "--resolution 768x576"));
+  EXPECT_TRUE(test::notes(scene, "its paths have 5 bounces"));
+  EXPECT_TRUE(test::notes(scene, "the 768x576 pixels of the film"));
+  EXPECT_EQ(scene.maxBounces, 5u);
+  EXPECT_EQ(scene.cameras.at(0).film, glm::uvec2(768, 576));
   ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_TRUE(test::warns(scene, "drawn as a pinhole"));
   EXPECT_TRUE(test::warns(scene, "the camera sees lamps"));

@@ -42,5 +42,6 @@ set(RL_SCENE_TESTS
   scene/mitsuba_values_test.cpp
   scene/crease_test.cpp
   scene/scene_file_shapes_test.cpp
+  scene/scene_write_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

@@ -75,6 +75,34 @@ TEST(Camera, ProjectionIsTheInverseOfTheRay) {
   }
 }
 
+// A window of 16 x 12 pixels at (40, 8) of a film of 64 x 48.
+TEST(Camera, AWindowShowsItsPartOfTheFilm) {
+  const auto scene = anyScene();
+  Dialect<> d(scene);
+  for (uint32_t kind : {rl::RL_CAMERA_PERSPECTIVE, rl::RL_CAMERA_ORTHOGRAPHIC}) {
+    const SceneCamera whole = lookingDownX(kind);
+    SceneCamera window = whole;
+    const double half =
+        kind == rl::RL_CAMERA_ORTHOGRAPHIC ? whole.ymag : std::tan(0.5 * whole.yfov);
+    window.ymag = 0.25 * half;
+    window.yfov = 2.0 * std::atan(0.25 * half);
+    window.shift = {half * 64.0 / 48.0 * (2.0 * 48.0 / 64.0 - 1.0),
+                    half * (1.0 - 2.0 * 14.0 / 48.0)};
+    const rl::Camera a = scene->camera(whole, 64, 48), b = scene->camera(window, 16, 12);
+    for (float x = 0.0f; x <= 16.0f; x += 4.0f) {
+      for (float y = 0.0f; y <= 12.0f; y += 3.0f) {
+        const rl::Ray ofWhole = d->cameraRay(a, {40.0f + x, 8.0f + y}, {64.0f, 48.0f}),
+                      ofWindow = d->cameraRay(b, {x, y}, {16.0f, 12.0f});
+        EXPECT_LT(glm::distance(ofWhole.origin, ofWindow.origin), 1e-5f);
+        EXPECT_LT(glm::distance(ofWhole.dir, ofWindow.dir), 1e-6f);
+        glm::vec2 film;
+        ASSERT_TRUE(d->cameraProject(b, ofWhole.origin + ofWhole.dir * 3.0f, {16.0f, 12.0f}, film));
+        EXPECT_LT(glm::distance(film, glm::vec2(x, y)), 1e-3f);
+      }
+    }
+  }
+}
+
 TEST(Camera, NothingProjectsFromBehindAPerspectiveCamera) {
   const auto scene = anyScene();
   Dialect<> d(scene);

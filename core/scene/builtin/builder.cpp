@@ -120,6 +120,15 @@ rl::Material glass(float roughness, const glm::vec3& sigmaAbsorption) {
   return m;
 }
 
+EnvironmentMap uniformEnvironment() {
+  EnvironmentMap uniform;
+  uniform.source = "uniform radiance 1";
+  uniform.width = 16;
+  uniform.height = 8;
+  uniform.radiance.assign(size_t(uniform.width) * uniform.height, glm::vec3(1.0f));
+  return uniform;
+}
+
 uint32_t SceneBuilder::addMaterial(const std::string& name, const rl::Material& data) {
   scene_.materials.push_back({name, data});
   return uint32_t(scene_.materials.size() - 1);

@@ -20,6 +20,9 @@ rl::Material plastic(const glm::vec3& albedo, float roughness);
 // A solid dielectric of index of refraction 1.5 that transmits; absorption in 1/m.
 rl::Material glass(float roughness, const glm::vec3& sigmaAbsorption);
 
+// Radiance 1 from everywhere.
+EnvironmentMap uniformEnvironment();
+
 class SceneBuilder {
  public:
   explicit SceneBuilder(const std::string& name) { scene_.name = name; }

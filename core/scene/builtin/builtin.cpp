@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 11> kScenes{{
+const std::array<Entry, 14> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -83,12 +83,35 @@ const std::array<Entry, 11> kScenes{{
                                   .priority = int(std::lround(name.value("priority").value()))});
      },
      "a camera in a body that absorbs, before two that overlap: Beer and Lambert's law"},
+    {"shapes", fixed<builtin::makeShapes>, "one of each kind of shape, and two of them as lamps"},
+    {"shape-furnace",
+     [](const BuiltinName& name) {
+       return builtin::makeShapeFurnace(namedShapes().at(wholeNumber(name, "kind")),
+                                        wholeNumber(name, kRepresentationParameter) == 1);
+     },
+     "a shape that emits 1/2 and reflects 1/2, in a uniform environment: radiance 1 everywhere"},
+    {"ball",
+     [](const BuiltinName& name) {
+       return builtin::makeBall(wholeNumber(name, kRepresentationParameter));
+     },
+     "a lacquered ball on a floor under a lamp, in several representations"},
 }};
 
 struct OwnParameter {
   const char* scene;
   SceneParameter parameter;
 };
+
+SceneParameter choiceOf(const std::string& name, std::vector<std::string> choices,
+                        const std::string& summary) {
+  return {name, 0.0, 0.0, double(choices.size() - 1), summary, std::move(choices)};
+}
+
+std::vector<std::string> shapeNames() {
+  std::vector<std::string> names;
+  for (const NamedShape& shape : namedShapes()) names.push_back(shape.name);
+  return names;
+}
 
 const std::vector<OwnParameter>& ownParameters() {
   static const std::vector<OwnParameter> all = {
@@ -123,7 +146,12 @@ const std::vector<OwnParameter>& ownParameters() {
        {"stray", std::nullopt, 10.0, 1e9,
         "distance of a black square along every axis, m; none without it"}},
       {"media", {"overlap", 0.001, 1e-6, 0.9, "of the two bodies, m"}},
-      {"media", {"priority", 0.0, -9.0, 9.0, "of the farther one, a whole number"}}};
+      {"media", {"priority", 0.0, -9.0, 9.0, "of the farther one, a whole number"}},
+      {"shape-furnace", choiceOf("kind", shapeNames(), "the shape")},
+      {"shape-furnace", choiceOf(kRepresentationParameter, {"shape", "mesh"},
+                                 "how it is represented: as itself, or by fine triangles")},
+      {"ball", choiceOf(kRepresentationParameter, builtin::sphereRepresentations(),
+                        "how the ball is represented: the same image")}};
   return all;
 }
 

@@ -57,12 +57,7 @@ Scene makeSphereFurnace(std::optional<double> roughness) {
       roughness ? metal(glm::vec3(1.0f), static_cast<float>(*roughness)) : lambert(glm::vec3(1.0f));
   const uint32_t white = scene.addMaterial("white", material);
   scene.add(sphere("solid", {0.0, 0.0, 0.0}, 1.0, 4, false), white);
-  EnvironmentMap uniform;
-  uniform.source = "uniform radiance 1";
-  uniform.width = 16;
-  uniform.height = 8;
-  uniform.radiance.assign(size_t(uniform.width) * uniform.height, glm::vec3(1.0f));
-  scene.setEnvironment(uniform);
+  scene.setEnvironment(uniformEnvironment());
   scene.addCamera("front", {0.0, 0.4, 3.2}, {0.0, 0.0, 0.0}, 45.0);
   return scene.finish();
 }

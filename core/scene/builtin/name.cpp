@@ -81,6 +81,15 @@ BuiltinName parseBuiltinName(const std::string& name) {
                     [&](const auto& other) { return other.name == key; }))
       failInput(fmt::format("scene '{}': '{}' is given twice", name, key));
     const std::string text = equals == std::string::npos ? "" : part.substr(equals + 1);
+    if (!found->choices.empty()) {
+      const auto choice = std::find(found->choices.begin(), found->choices.end(), text);
+      if (choice == found->choices.end()) {
+        failInput(fmt::format("scene '{}': {} is '{}', not one of {}{}", name, key, text,
+                              fmt::join(found->choices, ", "), didYouMean(text, found->choices)));
+      }
+      parsed.given.push_back({key, text, double(choice - found->choices.begin())});
+      continue;
+    }
     const std::optional<double> value = numberOf(text);
     if (!value) {
       failInput(fmt::format("scene '{}': {} is '{}', not a number such as 0.5, 1e-3 or 2^-13", name,
@@ -101,7 +110,9 @@ std::string withoutRelations(const std::string& name) {
   std::string kept;
   for (const std::string& part : split(name.substr(mark + 1), '&')) {
     const std::string key = part.substr(0, part.find('='));
-    if (key == kScaleParameter || key == kRadianceParameter || key == kMoveParameter) continue;
+    if (key == kScaleParameter || key == kRadianceParameter || key == kMoveParameter ||
+        key == kRepresentationParameter)
+      continue;
     kept += (kept.empty() ? "?" : "&") + part;
   }
   return name.substr(0, mark) + kept;

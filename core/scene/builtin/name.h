@@ -12,7 +12,7 @@ namespace restlab {
 struct BuiltinName {
   struct Given {
     std::string name, text;  // "scale", "2^10"
-    double value;
+    double value;            // of a choice: its place
   };
   std::string base;          // "furnace"
   std::vector<Given> given;  // in the order of the name
@@ -24,16 +24,17 @@ struct BuiltinName {
 };
 
 // Throws Error (badInput) with one line for: an unknown scene; unknown or repeated parameters;
-// values that are not a number (such as 0.5, 1e-3 or 2^-13) or out of range.
+// values that are not a number (such as 0.5, 1e-3 or 2^-13), out of range or no choice.
 BuiltinName parseBuiltinName(const std::string& name);
 
 // Parameters of every scene that change its image by a known relation.
 constexpr const char* kScaleParameter = "scale";
 constexpr const char* kRadianceParameter = "radiance";
 constexpr const char* kMoveParameter = "move";
+// The same surfaces, otherwise represented: the same image.
+constexpr const char* kRepresentationParameter = "as";
 
-// Removes kScaleParameter, kRadianceParameter and kMoveParameter from the name of a built-in scene:
-// "furnace?albedo=0.99".
+// Removes these four from the name of a built-in scene: "furnace?albedo=0.99".
 std::string withoutRelations(const std::string& name);
 
 }  // namespace restlab

@@ -14,10 +14,15 @@ glm::vec3 times(const glm::vec3& v, double factor) { return glm::vec3(glm::dvec3
 
 void scaleScene(Scene& scene, double factor) {
   for (MeshGeometry& geometry : scene.geometries) {
+    if (geometry.shape != nullptr) continue;  // its size is that of its instances
     for (glm::vec3& position : geometry.positions) position = times(position, factor);
   }
-  for (MeshInstance& instance : scene.instances)
+  for (MeshInstance& instance : scene.instances) {
+    if (scene.geometries[instance.geometry].shape != nullptr) {
+      for (int c = 0; c < 3; ++c) instance.objectToWorld[c] *= factor;
+    }
     instance.objectToWorld[3] = glm::dvec4(glm::dvec3(instance.objectToWorld[3]) * factor, 1.0);
+  }
   for (SceneMaterial& material : scene.materials) {
     material.data.sigmaAbsorption = times(material.data.sigmaAbsorption, 1.0 / factor);
     material.sigmaScattering = times(material.sigmaScattering, 1.0 / factor);
@@ -49,7 +54,9 @@ void moveScene(Scene& scene, double sizes) {
   const glm::dvec3 offset(sizes * std::max({extent.x, extent.y, extent.z}));
   std::vector<bool> isInWorldSpace(scene.geometries.size(), true);
   for (const MeshInstance& instance : scene.instances) {
-    if (instance.objectToWorld != glm::dmat4(1.0)) isInWorldSpace[instance.geometry] = false;
+    if (instance.objectToWorld != glm::dmat4(1.0) ||
+        scene.geometries[instance.geometry].shape != nullptr)
+      isInWorldSpace[instance.geometry] = false;
   }
   for (size_t g = 0; g < scene.geometries.size(); ++g) {
     if (!isInWorldSpace[g]) continue;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/scene/scene.h"
+#include "core/scene/shapes/shape_info.h"
 
 namespace restlab::builtin {
 
@@ -43,6 +44,16 @@ struct QuadLightShape {
   std::optional<double> stray = std::nullopt;  // distance of a small black triangle, m
 };
 Scene makeQuadLight(const QuadLightShape& shape);
+
+// One of each shape (core/scene/shapes/shape_info.h, namedShapes()).
+Scene makeShapes();
+// A shape, or a fine mesh of it, that emits 1/2 and reflects 1/2, in a uniform environment of
+// radiance 1.
+Scene makeShapeFurnace(const NamedShape& shape, bool isMesh);
+// A ball on a floor; `representation` is an index into sphereRepresentations().
+Scene makeBall(size_t representation);
+// "sphere", then others: examples of kinds, a mesh.
+const std::vector<std::string>& sphereRepresentations();
 
 struct MediaShape {
   double overlap = 0.001;  // overlap of the two bodies, m

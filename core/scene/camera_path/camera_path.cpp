@@ -118,6 +118,7 @@ SceneCamera between(const CameraMotion& motion, size_t first, double t, uint32_t
   camera.yfov = glm::mix(a.yfov, b.yfov, t);
   camera.xmag = glm::mix(a.xmag, b.xmag, t);
   camera.ymag = glm::mix(a.ymag, b.ymag, t);
+  camera.shift = glm::mix(a.shift, b.shift, t);
   const glm::dvec3 positionW = glm::mix(positionOf(a), positionOf(b), t);
   if (keyA.camera.empty() && keyB.camera.empty()) {
     return lookingAt(camera, positionW, glm::mix(keyA.targetW, keyB.targetW, t), motion.upW,

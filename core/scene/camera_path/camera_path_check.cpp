@@ -101,8 +101,9 @@ void addView(const SceneCamera& camera, std::vector<Ray>& rays) {
   for (int y = 0; y < kViewSide; ++y) {
     for (int x = 0; x < kViewSide; ++x) {
       // Stay inside the corners, and off the edges that triangles of a wall share.
-      const glm::dvec3 aside = right * (halfWidth * (2.0 * (x + 0.53) / kViewSide - 1.0)) +
-                               up * (halfHeight * (2.0 * (y + 0.47) / kViewSide - 1.0));
+      const glm::dvec3 aside =
+          right * (halfWidth * (2.0 * (x + 0.53) / kViewSide - 1.0) + camera.shift.x) +
+          up * (halfHeight * (2.0 * (y + 0.47) / kViewSide - 1.0) + camera.shift.y);
       Ray ray;
       ray.originW = positionOf(camera) + (isFlat ? aside : glm::dvec3(0.0));
       ray.dirW = -back + (isFlat ? glm::dvec3(0.0) : aside);

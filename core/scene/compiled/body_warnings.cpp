@@ -42,7 +42,9 @@ size_t deepest(const std::vector<BodyBox>& boxes) {
 
 bool filmLiesInOneMedium(const Scene& scene, const Bodies& bodies, const SceneCamera& camera) {
   const auto at = [&](double x, double y) {
-    return bodiesAt(scene, bodies, glm::dvec3(camera.cameraToWorld * glm::dvec4(x, y, 0.0, 1.0)));
+    return bodiesAt(scene, bodies,
+                    glm::dvec3(camera.cameraToWorld *
+                               glm::dvec4(x + camera.shift.x, y + camera.shift.y, 0.0, 1.0)));
   };
   const glm::uvec4 centre = at(0.0, 0.0);
   for (const double x : {-camera.xmag, camera.xmag}) {

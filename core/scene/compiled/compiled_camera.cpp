@@ -17,6 +17,8 @@ rl::Camera CompiledScene::camera(const SceneCamera& camera, uint32_t width, uint
   if (camera.isMirrored) c.rightW = -c.rightW;
   c.upW = glm::vec3(up);
   c.forwardW = glm::vec3(-back);
+  c.shiftX = static_cast<float>(camera.shift.x);
+  c.shiftY = static_cast<float>(camera.shift.y);
   const double aspect = double(width) / double(height);
   if (camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC) {
     c.halfHeight = static_cast<float>(camera.ymag);

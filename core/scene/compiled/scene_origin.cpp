@@ -39,8 +39,8 @@ std::vector<Seen> seenBy(const Sight& sight, const SceneCamera& camera) {
   const double half = isParallel ? camera.ymag : std::tan(0.5 * camera.yfov);
   std::vector<Seen> seen;
   for (int i = 0; i < kRaysASide * kRaysASide; ++i) {
-    const double x = (2.0 * (i % kRaysASide + 0.5) / kRaysASide - 1.0) * half;
-    const double y = (2.0 * (i / kRaysASide + 0.5) / kRaysASide - 1.0) * half;
+    const double x = (2.0 * (i % kRaysASide + 0.5) / kRaysASide - 1.0) * half + camera.shift.x;
+    const double y = (2.0 * (i / kRaysASide + 0.5) / kRaysASide - 1.0) * half + camera.shift.y;
     const glm::dvec3 film = right * x + up * y;
     const glm::dvec3 from = isParallel ? eye + film : eye;
     const glm::dvec3 dir = isParallel ? -back : glm::normalize(film - back);

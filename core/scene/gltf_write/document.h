@@ -43,6 +43,9 @@ class Images {
   std::map<std::pair<uint32_t, int>, std::pair<size_t, std::string>> written_;
 };
 
+// The keys of [[material]] for a material of the scene, but for its textures. Throws Error
+// (badInput) for tables.
+nlohmann::json kindWithoutTextures(const Scene& scene, size_t index);
 void addMaterials(const Scene& scene, Images& images, Output& output);
 // Nodes of instances, cameras and lights.
 void addNodes(const Scene& scene, Output& output);

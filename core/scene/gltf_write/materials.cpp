@@ -22,12 +22,8 @@ glm::vec3 colorOfWords(const glm::uvec3& w) { return {floatOf(w.x), floatOf(w.y)
 
 class MaterialWriter {
  public:
-  MaterialWriter(const Scene& scene, size_t index, Images& images, Output& output)
-      : scene_(scene),
-        source_(scene.materials.at(index)),
-        m_(source_.data),
-        images_(images),
-        output_(output) {}
+  MaterialWriter(const Scene& scene, const SceneMaterial& source, Images& images, Output& output)
+      : scene_(scene), source_(source), m_(source_.data), images_(images), output_(output) {}
 
   json write() {
     material_["name"] = source_.name;
@@ -40,6 +36,12 @@ class MaterialWriter {
     const json own = kindOf();
     if (!own.is_null()) material_["extras"]["restlab"] = own;
     return material_;
+  }
+
+  // The keys of [[material]], also where glTF says all.
+  json kind() {
+    const json own = kindOf();
+    return own.is_null() ? lobesKind() : own;
   }
 
  private:
@@ -230,8 +232,17 @@ class MaterialWriter {
 }  // namespace
 
 void addMaterials(const Scene& scene, Images& images, Output& output) {
-  for (size_t i = 0; i < scene.materials.size(); ++i)
-    output.add("materials", MaterialWriter(scene, i, images, output).write());
+  for (const SceneMaterial& material : scene.materials)
+    output.add("materials", MaterialWriter(scene, material, images, output).write());
+}
+
+json kindWithoutTextures(const Scene& scene, size_t index) {
+  SceneMaterial plain = scene.materials.at(index);
+  for (uint32_t& texture : plain.data.textures) texture = rl::RL_INVALID;
+  for (ClosureValue& value : plain.closure) value.texture = rl::RL_INVALID;
+  Output unused;
+  Images images(scene, unused);
+  return MaterialWriter(scene, plain, images, unused).kind();
 }
 
 }  // namespace restlab::gltf_write

@@ -96,6 +96,11 @@ void addCamera(const SceneCamera& camera, json& roots, Output& output) {
     own["orthographic"] = {
         {"xmag", camera.xmag}, {"ymag", camera.ymag}, {"znear", 0.0}, {"zfar", 1e6}};
   }
+  if (camera.shift != glm::dvec2(0.0))
+    output.notes.push_back(
+        fmt::format("{}: the shift of camera '{}' is left out: glTF's films are "
+                    "centred",
+                    output.file.string(), camera.name));
   glm::dmat4 matrix = camera.cameraToWorld;
   for (int axis = 0; axis < 3; ++axis) matrix[axis] = glm::normalize(matrix[axis]);
   json node = {{"name", camera.name}, {"camera", output.add("cameras", own)}};

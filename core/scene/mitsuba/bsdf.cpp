@@ -161,6 +161,9 @@ Appearance Bsdfs::blend(Parameters& p, int depth) {
   mixed.set("second", b);
   mixed.set("second_share", weight);
   mixed.isOneSided = read(first, depth + 1).isOneSided || read(second, depth + 1).isOneSided;
+  if (read(first, depth + 1).heights || read(second, depth + 1).heights)
+    context_.report.warn("bump map in a blend", p.place(),
+                         "bsdf 'blendbsdf': the bump maps of its BSDFs are left out");
   return mixed;
 }
 
@@ -233,13 +236,45 @@ Appearance Bsdfs::normalMap(Parameters& p, int depth) {
 
 Appearance Bsdfs::bumpMap(Parameters& p, int depth) {
   Appearance a = read(inner(p, 0, 1), depth + 1);
-  p.plugins("texture");
-  p.ignore({"scale"});
-  context_.report.warn(
-      "bump map", p.place(),
-      "bsdf 'bumpmap': heights are not read; the BSDF in it is drawn on the smooth "
-      "surface");
+  const std::vector<const Element*> maps = p.plugins("texture");
+  if (maps.size() != 1)
+    p.fail("", fmt::format("bsdf 'bumpmap' holds {} textures; 1 expected", maps.size()));
+  const double scale = p.number("scale", 1.0, -1e6, 1e6);
+  if (a.normalMap || a.heights) {
+    context_.report.warn("bump map", p.place(),
+                         "bsdf 'bumpmap' holds another map of normals or heights, which is drawn");
+    return a;
+  }
+  const TexturedColor texture = textures_.texture(*maps[0]);
+  a.heights = texture.use;
+  a.heightScale = scale * texture.factor.x;
+  note(p, "heights are drawn as a map of normals of 8 bits, of the shape's mean scale");
   return a;
+}
+
+uint32_t Bsdfs::withHeights(uint32_t material, const UvScale& scale, const std::string& place) {
+  const Heights heights = heights_.at(material);
+  const auto [entry, isNew] =
+      withHeights_.try_emplace({material, scale.metres.x, scale.metres.y, scale.side});
+  if (!isNew) return entry->second;
+  Scene& scene = context_.scene;
+  TextureUse use = scene.textureUses[heights.use];
+  const TextureImage& image = scene.images[use.image];
+  context_.report.takeMemory(place, 4ull * image.width * image.height);
+  if (scale.spread > 2.0)
+    context_.report.warn(
+        "bump map", place,
+        fmt::format("a bump map on texture coordinates that are up to {:.3g} times "
+                    "as large elsewhere: slopes are those of the mean",
+                    scale.spread));
+  scene.images.push_back(normalsOf(use, image, heights.scale, scale));
+  use.image = uint32_t(scene.images.size() - 1);
+  use.srgb = false;
+  scene.textureUses.push_back(use);
+  SceneMaterial bumped = scene.materials[material];
+  bumped.data.textures[rl::RL_TEX_NORMAL] = uint32_t(scene.textureUses.size() - 1);
+  scene.materials.push_back(std::move(bumped));
+  return entry->second = uint32_t(scene.materials.size() - 1);
 }
 
 Scattering Bsdfs::scatteringOf(const Appearance& a, const std::string& name,
@@ -312,8 +347,10 @@ Bsdfs::Surface Bsdfs::surfaceOf(const Element* bsdf, const std::optional<Texture
   Surface surface;
   surface.material = uint32_t(context_.scene.materials.size() - 1);
   surface.isNull = a.isNull;
-  surface.hasTangents =
-      a.normalMap.has_value() || (added.data.flags & rl::RL_MATERIAL_ANISOTROPIC) != 0;
+  if (a.heights) heights_[surface.material] = {*a.heights, a.heightScale};
+  surface.hasHeights = a.heights.has_value();
+  surface.hasTangents = surface.hasHeights || a.normalMap.has_value() ||
+                        (added.data.flags & rl::RL_MATERIAL_ANISOTROPIC) != 0;
   if (!emission) surfaces_[bsdf] = surface;
   return surface;
 }

@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/scene/mitsuba/bump.h"
 #include "core/scene/mitsuba/textures.h"
 #include "core/scene/scene_file/scene_file.h"
 
@@ -20,6 +22,8 @@ struct Appearance {
   double opacity = 1.0;
   std::optional<uint32_t> coverage;   // texture that multiplies the opacity
   std::optional<uint32_t> normalMap;  // texture
+  std::optional<uint32_t> heights;    // texture of a bump map
+  double heightScale = 1.0;           // metres
   bool isNull = false;                // light passes as if nothing were there
   bool isOneSided = false;            // Mitsuba draws its back black
 
@@ -38,10 +42,13 @@ class Bsdfs {
     uint32_t material = 0;
     bool isNull = false;
     bool hasTangents = false;  // it looks at tangents
+    bool hasHeights = false;   // withHeights() makes its material for a shape
   };
   // Material of a shape; `bsdf` nullptr: Mitsuba's default, `emission`: of a lamp.
   Surface surfaceOf(const Element* bsdf, const std::optional<TexturedColor>& emission,
                     const std::string& shape);
+  // The material with the normals of its bump map on a surface of that scale.
+  uint32_t withHeights(uint32_t material, const UvScale& scale, const std::string& place);
 
  private:
   Appearance read(const Element& element, int depth);
@@ -77,6 +84,12 @@ class Bsdfs {
   SceneFileInputs inputs_;
   std::map<const Element*, Appearance> known_;
   std::map<const Element*, Surface> surfaces_;  // without emission
+  struct Heights {
+    uint32_t use = 0;
+    double scale = 1.0;
+  };
+  std::map<uint32_t, Heights> heights_;  // by material
+  std::map<std::tuple<uint32_t, double, double, double>, uint32_t> withHeights_;
   size_t parts_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <new>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/scene/mitsuba/emitters.h"
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 namespace mitsuba {
 namespace {
 
+constexpr int64_t kMostBounces = 1024;
 constexpr const char* kAllowUnknown = "allow_unknown";
 
 // Settings behind the '?' of a name.
@@ -47,13 +49,26 @@ Settings settingsOf(const std::string& text, const fs::path& file) {
   return settings;
 }
 
-void noteIntegrator(const Element& element, const Context& context) {
+// Scattering events of its paths; nullopt: no limit, or an integrator of another kind.
+std::optional<uint32_t> bouncesOf(const Element& element, const Context& context, int depth = 0) {
   Parameters p(element, context);
-  const int64_t depth = p.integer("max_depth", -1, -1, 1 << 30);
+  if (element.type == "direct") return 1;
+  if (const int64_t segments = p.integer("max_depth", -1, -1, 1 << 30); segments >= 0)
+    return uint32_t(std::clamp<int64_t>(segments - 1, 0, kMostBounces));
+  const std::vector<const Element*> inner = p.plugins("integrator");
+  if (inner.empty() || depth > 8) return {};
+  return bouncesOf(*inner[0], context, depth + 1);
+}
+
+void readIntegrator(const Element& element, const Context& context) {
+  Parameters p(element, context);
+  context.scene.maxBounces = bouncesOf(element, context);
   std::string text =
       fmt::format("integrator '{}' is not read: --integrator chooses the method", element.type);
-  if (depth >= 1) text += fmt::format("; max_depth {} is --max-bounces {}", depth, depth - 1);
-  if (depth < 0) text += "; its paths have no max_depth, those here have --max-bounces";
+  text += context.scene.maxBounces
+              ? fmt::format("; its paths have {} bounces, unless --max-bounces says otherwise",
+                            *context.scene.maxBounces)
+              : "; its paths have no max_depth, those here have --max-bounces";
   context.report.note("integrator", element.place, text);
   if (p.boolean("hide_emitters", false))
     context.report.warn("hidden emitters", element.place,
@@ -70,7 +85,7 @@ void readChild(const Element& child, const Context& context, Shapes& shapes) {
   if (child.tag == "shape") return shapes.add(child);
   if (child.tag == "emitter" || child.tag == "luminaire") return addEmitter(child, context);
   if (child.tag == "sensor" || child.tag == "camera") return addSensor(child, context);
-  if (child.tag == "integrator") return noteIntegrator(child, context);
+  if (child.tag == "integrator") return readIntegrator(child, context);
   if (child.tag == "ref" || isBlind(child.tag)) return;  // read where something refers to it
   const std::string text = fmt::format(
       "<{}> is unknown here; shape, emitter, sensor, bsdf, texture, integrator, include, "
@@ -111,6 +126,18 @@ Scene read(const fs::path& file, const std::string& text, Report& report) {
 
 }  // namespace
 }  // namespace mitsuba
+
+std::optional<uint32_t> bouncesOfMitsuba(const fs::path& file, const std::string& settings) {
+  using namespace mitsuba;
+  Report report;
+  Scene scene;
+  Files files(file.parent_path(), report);
+  const Document document(file, settingsOf(settings, file).definitions, files, report);
+  const Context context{document, files, report, scene};
+  for (const Element& child : document.scene().children)
+    if (child.tag == "integrator") return bouncesOf(child, context);
+  return {};
+}
 
 bool isMitsubaFile(const fs::path& file) {
   std::string extension = file.extension().string();

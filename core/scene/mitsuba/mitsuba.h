@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/scene/scene.h"
@@ -17,5 +18,9 @@ bool isMitsubaScene(const std::filesystem::path& file);
 // of a $NAME, but allow_unknown=1, which draws plugins that are unknown as mid grey. Throws Error
 // (badInput) with one line: file:line:column, what is wrong, what would be right.
 Scene loadMitsuba(const std::filesystem::path& file, const std::string& settings = "");
+
+// Reads Scene::maxBounces of a scene without its meshes and images. Throws as loadMitsuba().
+std::optional<uint32_t> bouncesOfMitsuba(const std::filesystem::path& file,
+                                         const std::string& settings = "");
 
 }  // namespace restlab

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,8 @@ namespace {
 
 struct Film {
   double width = 768.0, height = 576.0;  // pixels
+  // The window that is drawn, and the middle that is looked at, of the whole film.
+  double x = 0.0, y = 0.0, windowWidth = 768.0, windowHeight = 576.0;
 };
 
 Film filmOf(Parameters& sensor, const Context& context) {
@@ -17,14 +20,18 @@ Film filmOf(Parameters& sensor, const Context& context) {
   const std::vector<const Element*> films = sensor.plugins("film");
   if (films.empty()) return film;
   Parameters p(*films[0], context);
-  film.width = double(p.integer("width", 768, 1, 1 << 20));
-  film.height = double(p.integer("height", 576, 1, 1 << 20));
-  if (p.has("crop_width") || p.has("crop_height") || p.has("crop_offset_x") ||
-      p.has("crop_offset_y")) {
-    p.ignore({"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"});
-    context.report.warn("crop", p.place(),
-                        "the film's crop window is not read: the whole film is drawn");
-  }
+  const auto side = [&](const char* name, int64_t fallback, int64_t most) {
+    return p.integer(name, fallback, 1, most);
+  };
+  const int64_t width = side("width", 768, 1 << 20), height = side("height", 576, 1 << 20);
+  const int64_t x = p.integer("crop_offset_x", 0, 0, width - 1),
+                y = p.integer("crop_offset_y", 0, 0, height - 1);
+  film.windowWidth = double(side("crop_width", width - x, width - x));
+  film.windowHeight = double(side("crop_height", height - y, height - y));
+  film.width = double(width);
+  film.height = double(height);
+  film.x = double(x);
+  film.y = double(y);
   return film;
 }
 
@@ -66,6 +73,28 @@ void place(SceneCamera& camera, const glm::dmat4& toWorld) {
   camera.cameraToWorld[3] = toWorld[3];
 }
 
+// The part of the film that is drawn. `half`: half extents of the whole.
+void showWindow(Parameters& p, const Film& film, const glm::dvec2& half, bool isFlat,
+                SceneCamera& camera) {
+  const glm::dvec2 share(film.windowWidth / film.width, film.windowHeight / film.height);
+  const double offX = isFlat ? 0.0 : p.number("principal_point_offset_x", 0.0, -100.0, 100.0),
+               offY = isFlat ? 0.0 : p.number("principal_point_offset_y", 0.0, -100.0, 100.0);
+  const glm::dvec2 shown = half * share;
+  camera.shift = {half.x * (2.0 * (film.x / film.width + offX) + share.x - 1.0),
+                  half.y * (1.0 - share.y - 2.0 * (film.y / film.height + offY))};
+  if (glm::length(camera.shift) < 1e-12 * glm::length(half)) camera.shift = glm::dvec2(0.0);
+  camera.aspect = shown.x / shown.y;
+  if (isFlat) {
+    camera.xmag = shown.x;
+    camera.ymag = shown.y;
+  } else {
+    camera.yfov = 2.0 * std::atan(shown.y);
+  }
+  // Pixels are square here: a film of others keeps its width.
+  const double rows = std::round(film.windowWidth / camera.aspect);
+  camera.film = {uint32_t(film.windowWidth), uint32_t(std::clamp(rows, 1.0, double(1 << 20)))};
+}
+
 }  // namespace
 
 void addSensor(const Element& element, const Context& context) {
@@ -83,35 +112,37 @@ void addSensor(const Element& element, const Context& context) {
   const Film film = filmOf(p, context);
   camera.name =
       element.id.empty() ? fmt::format("camera{}", context.scene.cameras.size()) : element.id;
-  camera.aspect = film.width / film.height;
   const glm::dmat4 toWorld = p.transform("to_world");
   place(camera, toWorld);
+  // Half extents of the whole film.
+  glm::dvec2 half(0.0);
   if (isFlat) {
     camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
-    camera.xmag = glm::length(glm::dvec3(toWorld[0]));
-    camera.ymag = glm::length(glm::dvec3(toWorld[1])) / camera.aspect;
-    camera.aspect = camera.xmag / camera.ymag;
+    half = {glm::length(glm::dvec3(toWorld[0])),
+            glm::length(glm::dvec3(toWorld[1])) * film.height / film.width};
   } else {
     camera.kind = rl::RL_CAMERA_PERSPECTIVE;
-    camera.yfov = 2.0 * std::atan(halfHeight(p, film));
+    half.y = halfHeight(p, film);
+    half.x = half.y * film.width / film.height;
   }
+  showWindow(p, film, half, isFlat, camera);
   if (type == "thinlens") {
     p.ignore({"aperture_radius", "focus_distance"});
     context.report.warn("thin lens", p.place(),
                         "sensor 'thinlens' is drawn as a pinhole: all is sharp");
   }
-  if (p.has("principal_point_offset_x") || p.has("principal_point_offset_y"))
-    context.report.warn("principal point", p.place(),
-                        "the principal point is not read: it is the middle of the image");
   p.plugins("sampler");
   p.ignore(
       {"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance", "fov_axis"});
   p.finish();
   context.report.note(
       "film", p.place(),
-      fmt::format("the film has {:g}x{:g} pixels: --resolution {:g}x{:g} renders at "
-                  "that size",
-                  film.width, film.height, film.width, film.height));
+      fmt::format("images have the {}x{} pixels of the film, unless --resolution says otherwise{}",
+                  camera.film.x, camera.film.y,
+                  camera.film.y == uint32_t(film.windowHeight)
+                      ? ""
+                      : fmt::format(" (not {:g} rows, whose pixels would not be square)",
+                                    film.windowHeight)));
   context.scene.cameras.push_back(std::move(camera));
 }
 

@@ -170,7 +170,13 @@ void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
                                          size, kLeast, kMost));
     }
   }
-  context_.scene.instances.push_back({oneLine(name), mesh, surface.material, toWorld});
+  uint32_t material = surface.material;
+  if (surface.hasHeights) {
+    const MeshGeometry& geometry = context_.scene.geometries[mesh];
+    const UvScale scale = uvScaleOf(geometry.shape ? fineMesh(*geometry.shape) : geometry, toWorld);
+    material = bsdfs_.withHeights(material, scale, element.place);
+  }
+  context_.scene.instances.push_back({oneLine(name), mesh, material, toWorld});
 }
 
 void Shapes::addInstances(const Element& element) {

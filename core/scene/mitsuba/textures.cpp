@@ -26,6 +26,30 @@ uint32_t texelOf(const glm::dvec3& linear) {
 
 double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
 
+// A factor and two bytes of sRGB that stand for two values: of all bytes that the larger value may
+// have, so that the factor is at most `mostFactor`, the one that rounds the smaller one least.
+struct TwoValues {
+  double factor = 1.0;
+  uint32_t a = 0, b = 0;
+};
+TwoValues twoValues(double a, double b, double mostFactor) {
+  const double most = std::max(a, b), least = std::min(a, b);
+  TwoValues best;
+  if (!(most > 0.0)) return best;
+  double smallestError = 2.0;
+  for (uint32_t byte = 255; byte >= 128; --byte) {
+    const double factor = most / decodeSrgb(byte / 255.0);
+    if (byte < 255 && factor > mostFactor) break;
+    const uint32_t other = byteOf(encodeSrgb(least / factor));
+    const double error =
+        least > 0.0 ? std::abs(factor * decodeSrgb(other / 255.0) / least - 1.0) : 0.0;
+    if (!(error < smallestError)) continue;
+    smallestError = error;
+    best = a >= b ? TwoValues{factor, byte, other} : TwoValues{factor, other, byte};
+  }
+  return best;
+}
+
 // A channel of a texel as the use reads it.
 double channelOf(const TextureUse& use, uint32_t texel, uint32_t channel) {
   const double encoded = double((texel >> (8 * channel)) & 255u) / 255.0;
@@ -165,13 +189,19 @@ TexturedColor Textures::checkerboard(const Element& element) {
   const glm::dvec3 a = p.color("color0", glm::dvec3(0.4), Quantity::radiance),
                    b = p.color("color1", glm::dvec3(0.2), Quantity::radiance);
   p.finish();
-  const double most = std::max({largest(a), largest(b), 1e-9});
-  const uint32_t texelA = texelOf(a / most), texelB = texelOf(b / most);
+  TwoValues channels[3];
+  for (int c = 0; c < 3; ++c) {
+    // Reflectances have factors up to 1.
+    const double most = std::max(a[c], b[c]);
+    channels[c] = twoValues(a[c], b[c], most <= 1.0 ? 1.0 : 4.0 * most);
+  }
+  const uint32_t texelA = packRgba(channels[0].a, channels[1].a, channels[2].a, 255u),
+                 texelB = packRgba(channels[0].b, channels[1].b, channels[2].b, 255u);
   context_.scene.images.push_back({"checkerboard", 2, 2, {texelA, texelB, texelB, texelA}});
   use.image = uint32_t(context_.scene.images.size() - 1);
   use.srgb = true;
   use.nearest = true;
-  return {glm::dvec3(most), add(use)};
+  return {glm::dvec3(channels[0].factor, channels[1].factor, channels[2].factor), add(use)};
 }
 
 // "scale" of version 0.6: a texture or a colour times a number.

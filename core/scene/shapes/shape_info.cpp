@@ -42,6 +42,21 @@ const ShapeInfo* findShape(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+const std::vector<NamedShape>& namedShapes() {
+  static const std::vector<NamedShape> kAll = [] {
+    std::vector<NamedShape> all;
+    for (const ShapeInfo& info : shapeRegistry()) {
+      std::vector<float> values;
+      for (const ShapeParameter& p : info.parameters) values.push_back(float(p.fallback));
+      if (!info.read) all.push_back({info.name, {&info, values}});
+      for (const ShapeExample& example : info.examples)
+        all.push_back({example.name, {&info, example.values, example.words}});
+    }
+    return all;
+  }();
+  return kAll;
+}
+
 MeshGeometry makeShape(ShapeGeometry shape, const std::string& name) {
   MeshGeometry mesh = shape.info->standIn(shape);
   mesh.name = name;

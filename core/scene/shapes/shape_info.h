@@ -73,6 +73,14 @@ const std::vector<ShapeInfo>& shapeRegistry();
 // nullptr if there is none.
 const ShapeInfo* findShape(const std::string& name);
 
+// A shape of each kind and of each of its examples, by name: the kind's where it has its default
+// parameters.
+struct NamedShape {
+  std::string name;
+  ShapeGeometry shape;
+};
+const std::vector<NamedShape>& namedShapes();
+
 // A geometry of that shape with the stand-in as its triangles.
 MeshGeometry makeShape(ShapeGeometry shape, const std::string& name);
 // Parameters, and behind them the words, as uvec4s that kernels read: both begin with a uvec4.

@@ -21,6 +21,8 @@ namespace {
 std::string exactly(const SceneCamera& camera) {
   std::string text = camera.kind == rl::RL_CAMERA_ORTHOGRAPHIC ? "orthographic" : "perspective";
   if (camera.isMirrored) text += " mirrored";
+  if (camera.shift != glm::dvec2(0.0))
+    text += fmt::format(" shift {:a} {:a}", camera.shift.x, camera.shift.y);
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
       text += fmt::format(" {:a}", camera.cameraToWorld[column][row] + 0.0);

@@ -182,7 +182,13 @@ void printWarnings(const PreparedScene& prepared) {
 
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height) {
   const Scene& scene = prepared.scene->source();
-  const double aspect = scene.cameras.at(prepared.camera).aspect;
+  const SceneCamera& camera = scene.cameras.at(prepared.camera);
+  const double aspect = camera.aspect;
+  const bool hasFilm = camera.film.x > 0 && camera.film.x <= kMaxSide && camera.film.y <= kMaxSide;
+  if (width == 0 && height == 0 && hasFilm) {
+    width = camera.film.x;
+    height = camera.film.y;
+  }
   const double ratio = aspect > 0.0 ? aspect : 1.0;
   if (width == 0 && height == 0) width = 512;
   if (width != 0 && height != 0) return;
@@ -249,6 +255,8 @@ void describeCamera(const SceneCamera& camera, std::map<std::string, std::string
   words["camera_index"] = "none";
   words["camera_to_world"] = matrix;
   if (camera.isMirrored) words["camera_mirrored"] = "true";
+  if (camera.shift != glm::dvec2(0.0))
+    words["camera_shift"] = fmt::format("{:.9g} {:.9g}", camera.shift.x, camera.shift.y);
   words["camera_yfov"] = fmt::format("{:.9g}", camera.yfov);
 }
 
@@ -260,6 +268,8 @@ std::string cameraWords(const SceneCamera& camera) {
       words += fmt::format(" {:a}", camera.cameraToWorld[column][row]);
   }
   if (camera.isMirrored) words += " mirrored";
+  if (camera.shift != glm::dvec2(0.0))
+    words += fmt::format(" shift {:a} {:a}", camera.shift.x, camera.shift.y);
   return words;
 }
 

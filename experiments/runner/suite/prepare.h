@@ -59,7 +59,8 @@ bool assetsMissing(const SceneRequest& request, std::string& missing);
 // Prints each warning of the scene on stderr once.
 void printWarnings(const PreparedScene& prepared);
 
-// Completes a size with missing sides: 512 wide if both are missing, and the other side from the
+// Completes a size with missing sides: the film's pixels, else 512 wide if both are missing, and
+// the other side from the
 // camera's aspect ratio, or square if the camera has none. Throws badInput naming the camera if the
 // resulting side is outside 1..kMaxSide.
 void completeResolution(const PreparedScene& prepared, uint32_t& width, uint32_t& height);

@@ -225,6 +225,38 @@ void Suite::chooseDevice(SessionConfig& config) const {
 
 namespace {
 
+// Table of a suite.toml in results: bounces that scenes had of their own files.
+constexpr const char* kSceneBounces = "scene_bounces";
+
+// Bounces that the scene's file suggests. Errors of the file are found when it is loaded.
+std::optional<uint32_t> suggestionOf(const SceneRequest& request) {
+  const std::filesystem::path beside = std::filesystem::path(request.suiteFolder) / request.scene;
+  for (const std::string& name : {request.scene, beside.string()}) {
+    try {
+      if (const auto bounces = suggestedBounces(name)) return bounces;
+    } catch (const Error&) {
+    }
+  }
+  return {};
+}
+
+// Gives scenes the bounces of their files where the suite has none.
+void takeBounces(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
+  const bool isKept = root.has(kSceneBounces);
+  const ConfigTable kept = root.getTable(kSceneBounces);
+  for (SuiteScene& scene : suite.scenes) {
+    std::optional<uint32_t> bounces;
+    if (isKept && kept.has(scene.name))
+      bounces = uint32_t(kept.getInteger(scene.name, 0, 0, 1024));
+    else if (!isKept)
+      bounces = suggestionOf(scene.request);
+    if (!bounces || settings.has("max_bounces") || scene.transport.contains("max_bounces"))
+      continue;
+    scene.transport["max_bounces"] = int64_t(*bounces);
+    scene.suggestedBounces = bounces;
+  }
+}
+
 // Reads one point of the sweep over settings. `root`: with all overrides and this point's values.
 Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, const Sweep& sweep) {
   Suite suite;
@@ -233,7 +265,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   suite.question = root.getString("question", "");
   for (const char* key :
        {"scenes", "scene", "method", "settings", "reference", "sweep", "camera_path", "event",
-        "mask", "view"})  // view: what the viewer shows beside methods
+        "mask", kSceneBounces, "view"})  // view: what the viewer shows beside methods
     root.has(key);
   root.finish();
   const std::string folder = file.parent_path().string();
@@ -257,6 +289,7 @@ Suite readSuite(const ConfigTable& root, const std::filesystem::path& file, cons
   std::set<std::string> swept;
   for (const SweepAxis& axis : sweep.settings) swept.insert(axis.leaf);
   readSettings(settings, suite, swept);
+  takeBounces(root, settings, suite);
   readPaths(root, suite);
   takePath(suite, suite.cameraPathName, suite.cameraPathPlace);
   for (const SuiteScene& scene : suite.scenes) checkPath(settings, ofScene(suite, scene));
@@ -321,7 +354,7 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
     }
     return root;
   };
-  const ConfigTable root = load();
+  ConfigTable root = load();
   const Sweep sweep = readSweep(root, settingsKeys());
   requireSetKeysAreNotSwept(sweep, overrides);
   std::vector<Suite> points;
@@ -335,6 +368,10 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
     points.push_back(readSuite(point, file, sweep));
     requireOwnSeeds(sweep.settings, points);
     points.back().point = sweepLabel(sweep.settings, choice);
+    for (const SuiteScene& scene : points.back().scenes)
+      if (scene.suggestedBounces)
+        root.getTable(kSceneBounces)
+            .assign(scene.name, std::to_string(*scene.suggestedBounces), "a scene's file");
     points.back().resolved = root.text();
   }
   return points;

@@ -24,7 +24,8 @@ struct SuiteScene {
   bool optional = false;           // skipped with a message if its files are absent
   Truth truth = Truth::rendered;
   // Settings of this scene instead of the suite's.
-  ParameterMap transport;  // of transportSchema()
+  ParameterMap transport;                    // of transportSchema()
+  std::optional<uint32_t> suggestedBounces;  // that `transport` has of the scene's file
   std::optional<uint32_t> warmupFrames, runs;
   std::optional<std::string> cameraPath;  // name of the path
   // Number of the [[scene]] whose scenes are a sweep, from 1; 0: a [[scene]] of one scene.
