@@ -62,6 +62,20 @@ std::string rangeText(double min, double max) {
   return fmt::format("in {:.10g}..{:.10g}", min, max);
 }
 
+std::vector<double> numbersOf(const toml::array& array, const std::string& key,
+                              const std::string& file, double min, double max) {
+  std::vector<double> values;
+  for (const toml::node& element : array) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !(*value >= min && *value <= max)) {
+      failUsage(fmt::format("{}: '{}' must hold numbers {}", formatPlace(element.source(), file),
+                            key, rangeText(min, max)));
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
 // Converts a TOML node to the parameter's type; returns "" and sets `value`, or returns the fault.
 std::string convertParameter(const ParameterInfo& info, const toml::node& node,
                              ParameterValue& value) {
@@ -315,17 +329,30 @@ std::vector<double> ConfigTable::getNumbers(const std::string& key,
     fail(key, count == 1 ? fmt::format("'{}' must be a number", key)
                          : fmt::format("'{}' must be an array of {} numbers", key, count));
   }
-  std::vector<double> values;
-  for (const toml::node& element : *array) {
-    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-    if (!value || !(*value >= min && *value <= max)) {
-      failUsage(fmt::format("{}: '{}' must hold numbers {}",
-                            formatPlace(element.source(), document_->file), key,
-                            rangeText(min, max)));
-    }
-    values.push_back(*value);
+  return numbersOf(*array, key, document_->file, min, max);
+}
+
+std::vector<double> ConfigTable::getList(const std::string& key, double min, double max) const {
+  const toml::node* node = node_->find(key);
+  if (!node) return {};
+  if (!node->is_array()) fail(key, fmt::format("'{}' must be an array of numbers", key));
+  return numbersOf(*node->as_array(), key, document_->file, min, max);
+}
+
+std::vector<std::vector<double>> ConfigTable::getRows(const std::string& key, size_t width,
+                                                      double min, double max) const {
+  const toml::node* node = node_->find(key);
+  if (!node) return {};
+  if (!node->is_array())
+    fail(key, fmt::format("'{}' must be an array of arrays of {} numbers", key, width));
+  std::vector<std::vector<double>> rows;
+  for (const toml::node& row : *node->as_array()) {
+    if (!row.is_array() || row.as_array()->size() != width)
+      failUsage(fmt::format("{}: '{}' must hold arrays of {} numbers",
+                            formatPlace(row.source(), document_->file), key, width));
+    rows.push_back(numbersOf(*row.as_array(), key, document_->file, min, max));
   }
-  return values;
+  return rows;
 }
 
 ConfigTable ConfigTable::getTable(const std::string& key) const {

@@ -51,6 +51,11 @@ class ConfigTable {
   // Reads an array of `count` numbers, each inside the range, or one number as an array of one.
   std::vector<double> getNumbers(const std::string& key, const std::vector<double>& fallback,
                                  size_t count, double min, double max) const;
+  // Reads an array of numbers of any length; empty if the key is absent.
+  std::vector<double> getList(const std::string& key, double min, double max) const;
+  // Reads an array of arrays of `width` numbers; empty if the key is absent.
+  std::vector<std::vector<double>> getRows(const std::string& key, size_t width, double min,
+                                           double max) const;
   // [key]: an empty table if the key is absent.
   ConfigTable getTable(const std::string& key) const;
   // [[key]]: the tables in the order of the file.

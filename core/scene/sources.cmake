@@ -43,6 +43,13 @@ target_sources(rl_core PRIVATE
   scene/field/solid.cpp
   scene/field/solid_tree.cpp
   scene/field/stand_in.cpp
+  scene/splines/bezier.cpp
+  scene/splines/closest_point.cpp
+  scene/splines/mesh_of_surface.cpp
+  scene/splines/nurbs.cpp
+  scene/splines/read_nurbs.cpp
+  scene/splines/surface_words.cpp
+  scene/splines/tessellate.cpp
   ${RL_SHAPE_HOST_SOURCES}
 )
 target_link_libraries(rl_core PUBLIC nlohmann_json::nlohmann_json)

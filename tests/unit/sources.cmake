@@ -55,6 +55,7 @@ list(APPEND RL_UNIT_TESTS
   shape_draws_test.cpp
   field_text_test.cpp
   field_trace_test.cpp
+  nurbs_test.cpp
 )
 
 # They set macros for the kernels that they include.

@@ -348,15 +348,15 @@ Scene read(const fs::path& file, const std::string& settings) {
                       fmt::format("a second [[material]] is named '{}'", materials[i].name));
     }
   }
+  if (table.has("camera")) {
+    scene.cameras = {readCamera(table.getTable("camera"))};
+    scene.mainCamera = 0;
+  }
   for (const ConfigTable& shape : table.getTables("shape"))
     addShape(shape, folder, materials, scene);
   Assignment assignment(scene, materials);
   for (const ConfigTable& assign : table.getTables("assign")) assignment.apply(assign);
   for (const ConfigTable& light : table.getTables("light")) addLight(light, scene);
-  if (table.has("camera")) {
-    scene.cameras = {readCamera(table.getTable("camera"))};
-    scene.mainCamera = 0;
-  }
   if (scene.cameras.empty()) scene.cameras = {framingCamera(scene)};
   if (table.has("environment"))
     scene.environment = readEnvironment(table.getTable("environment"), folder);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/scene/builtin/builder.h"
@@ -84,20 +86,36 @@ void readEmission(const ConfigTable& table, SceneMaterial& material) {
   }
 }
 
-MeshGeometry readShape(const ConfigTable& table) {
+// Where the shape and its instances stand.
+ShapePlace placesOf(const ConfigTable& table, const std::vector<SceneCamera>& cameras) {
+  const glm::dmat4 own = readTransform(table);
+  ShapePlace place{{}, cameras};
+  for (const ConfigTable& one : table.getTables("instances"))
+    place.toWorld.push_back(readTransform(one) * own);
+  if (place.toWorld.empty()) place.toWorld.push_back(own);
+  return place;
+}
+
+MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
   const ShapeInfo& info = readKind(table);
   ShapeGeometry shape{&info, {}};
   for (const ShapeParameter& p : info.parameters)
     shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
                                                               int64_t(p.lo), int64_t(p.hi)))
                                      : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+  if (info.readMesh) {
+    if (std::optional<MeshGeometry> mesh = info.readMesh(table, placesOf(table, scene.cameras))) {
+      mesh->name = info.name;
+      return std::move(*mesh);
+    }
+  }
   if (info.read) info.read(table, shape);
   return makeShape(std::move(shape), info.name);
 }
 
 MeshGeometry readGeometry(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
-  if (!table.has("file")) return readShape(table);
+  if (!table.has("file")) return readShape(table, scene);
   if (table.has("kind")) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
   MeshGeometry mesh = readMeshFile(table, folder, scene);
   readNormals(table, mesh);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct ShapeExample {
   std::string name;
   std::vector<float> values;
   std::vector<uint32_t> words{};
+};
+
+// Where a shape of a scene file stands.
+struct ShapePlace {
+  std::vector<glm::dmat4> toWorld;   // of each instance, at least one
+  std::vector<SceneCamera> cameras;  // none: not known yet
 };
 
 // One kind of shapeRegistry(). Functions take a shape of that kind with a value for each parameter,
@@ -55,6 +62,10 @@ struct ShapeInfo {
   // Reads the keys of a [[shape]] that are not parameters, into ShapeGeometry::words. Throws Error
   // (badInput). Not set: there are none.
   std::function<void(const ConfigTable& table, ShapeGeometry& shape)> read{};
+  // Reads a [[shape]] that becomes triangles; nullopt if it is to be met exactly. Throws Error
+  // (badUsage). Not set: none does.
+  std::function<std::optional<MeshGeometry>(const ConfigTable& table, const ShapePlace& place)>
+      readMesh{};
 };
 
 // In the order of shapes.list.
