@@ -13,4 +13,5 @@ set(RL_BIAS_TESTS
   bias/material_layers_test.cpp
   bias/parameters_test.cpp
   bias/transparency_test.cpp
+  bias/undrawn_lamps_test.cpp
 )

@@ -20,7 +20,7 @@ RL_FN vec2 fieldClip(RL_IN(Field) f, RL_IN(Ray) ray) {
     float d = dot(unit, ray.dir);
     float low = dot(unit, f.low);
     float high = dot(unit, f.high);
-    if (d == 0.0f) {
+    if (abs(d) < 1.0e-30f) {
       if (o < low || o > high) return vec2(1.0f, 0.0f);
       continue;
     }
