@@ -102,6 +102,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/quad_light.cpp
   scene/builtin/shell.cpp
   scene/builtin/sky.cpp
+  scene/builtin/teapot.cpp
   scene/mitsuba/bsdf.cpp
   scene/mitsuba/bump.cpp
   scene/mitsuba/bsdf_kinds.cpp

@@ -43,5 +43,6 @@ set(RL_SCENE_TESTS
   scene/crease_test.cpp
   scene/scene_file_shapes_test.cpp
   scene/scene_write_test.cpp
+  scene/splines_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 14> kScenes{{
+const std::array<Entry, 15> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -95,6 +95,12 @@ const std::array<Entry, 14> kScenes{{
        return builtin::makeBall(wholeNumber(name, kRepresentationParameter));
      },
      "a lacquered ball on a floor under a lamp, in several representations"},
+    {"teapot",
+     [](const BuiltinName& name) {
+       return builtin::makeTeapot({.isExact = wholeNumber(name, kRepresentationParameter) == 1,
+                                   .chord = name.value("chord")});
+     },
+     "Newell's teapot: 32 Bezier pieces, as triangles or met exactly"},
 }};
 
 struct OwnParameter {
@@ -151,7 +157,12 @@ const std::vector<OwnParameter>& ownParameters() {
       {"shape-furnace", choiceOf(kRepresentationParameter, {"shape", "mesh"},
                                  "how it is represented: as itself, or by fine triangles")},
       {"ball", choiceOf(kRepresentationParameter, builtin::sphereRepresentations(),
-                        "how the ball is represented: the same image")}};
+                        "how the ball is represented: the same image")},
+      {"teapot", choiceOf(kRepresentationParameter, {"mesh", "exact"},
+                          "as triangles, or as the surface itself")},
+      {"teapot",
+       {"chord", std::nullopt, 1e-6, 1.0,
+        "chord error of the triangles, m; a quarter of a pixel where it is not given"}}};
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/scene/scene.h"
+#include "core/scene/splines/bezier.h"
 #include "core/scene/shapes/shape_info.h"
 
 namespace restlab::builtin {
@@ -60,5 +61,16 @@ struct MediaShape {
   int priority = 0;        // priority of the farther body; the nearer, smaller one has 0
 };
 Scene makeMedia(const MediaShape& shape);
+
+struct TeapotShape {
+  bool isExact = false;         // rays meet the surface, and not triangles
+  std::optional<double> chord;  // chord error of the triangles, m; a quarter of a pixel without it
+};
+Scene makeTeapot(const TeapotShape& shape);
+// Its 32 pieces in Newell's units, z up, normals to the outside.
+std::vector<BezierGrid> teapotPieces();
+// Its triangles in Newell's units; `chordError` holds under the transform, or as close as
+// kMostTrianglesOfPiece triangles a piece come.
+MeshGeometry teapotMesh(const glm::dmat4& toWorld, double chordError);
 
 }  // namespace restlab::builtin

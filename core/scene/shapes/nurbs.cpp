@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "core/base/config.h"
 #include "core/base/error.h"
@@ -10,6 +12,23 @@
 #include "core/scene/splines/surface_words.h"
 
 namespace restlab {
+
+namespace {
+
+// The surface that was asked for last, by any thread: questions come in long rows.
+std::shared_ptr<const ClosedSurface> preparedSurface(const std::vector<uint32_t>& words) {
+  static std::mutex mutex;
+  static std::vector<uint32_t> known;
+  static std::shared_ptr<const ClosedSurface> surface;
+  const std::lock_guard lock(mutex);
+  if (surface == nullptr || known != words) {
+    surface = std::make_shared<const ClosedSurface>(surfaceOfWords(words));
+    known = words;
+  }
+  return surface;
+}
+
+}  // namespace
 
 ShapeInfo nurbsShape() {
   ShapeInfo info;
@@ -38,7 +57,7 @@ ShapeInfo nurbsShape() {
     return isClosedSurface(surfaceOfWords(shape.words));
   };
   info.isInside = [](const ShapeGeometry& shape, const glm::dvec3& posL) {
-    return isInsideSurface(surfaceOfWords(shape.words), posL);
+    return preparedSurface(shape.words)->isInside(posL);
   };
   info.box = [](const ShapeGeometry& shape) { return boxOfWords(shape.words); };
   info.standIn = [](const ShapeGeometry& shape) {

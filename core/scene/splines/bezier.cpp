@@ -153,7 +153,7 @@ SplinePoint evaluate(const BezierPiece& piece, UnitParameter s, UnitParameter t)
   glm::dvec3 n = glm::cross(point.du, point.dv);
   const double longest = std::max(glm::length(point.du), glm::length(point.dv));
   if (!(glm::length(n) > 1e-9 * longest * longest)) {
-    const double step = 1e-6;
+    const double step = 1e-7;
     const auto beside = [&](UnitParameter x) {
       return UnitParameter{x.at + step * (0.5 - x.at), x.rest + step * (0.5 - x.rest)};
     };

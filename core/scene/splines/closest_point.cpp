@@ -92,31 +92,34 @@ bool isClosedSurface(const BezierGrid& grid) {
   return volume > 0.0;
 }
 
-bool isInsideSurface(const BezierGrid& grid, const glm::dvec3& p) {
-  struct Begin {
-    double distance;
-    size_t piece;
-    glm::dvec2 st;
-  };
-  std::vector<Begin> begins;
-  for (size_t k = 0; k < grid.pieces.size(); ++k) {
-    Begin nearest{1e300, k, {}};
+ClosedSurface::ClosedSurface(BezierGrid grid) : grid_(std::move(grid)) {
+  for (size_t k = 0; k < grid_.pieces.size(); ++k) {
     for (size_t j = 0; j <= kSteps; ++j) {
       for (size_t i = 0; i <= kSteps; ++i) {
         const UnitParameter s = fraction(i, kSteps), t = fraction(j, kSteps);
-        const double d = glm::distance(evaluate(grid.pieces[k], s, t).position, p);
-        if (d < nearest.distance) nearest = {d, k, {s.at, t.at}};
+        samples_.push_back({evaluate(grid_.pieces[k], s, t).position, k, {s.at, t.at}});
       }
     }
-    begins.push_back(nearest);
   }
-  const size_t tried = std::min<size_t>(begins.size(), 9);
-  std::partial_sort(begins.begin(), begins.begin() + std::ptrdiff_t(tried), begins.end(),
-                    [](const Begin& a, const Begin& b) { return a.distance < b.distance; });
+}
+
+bool ClosedSurface::isInside(const glm::dvec3& p) const {
+  // The closest sample of each of the three pieces that come closest.
+  std::array<std::pair<double, const Sample*>, 3> begins;
+  begins.fill({1e300, nullptr});
+  for (const Sample& sample : samples_) {
+    const glm::dvec3 d = sample.position - p;
+    std::pair<double, const Sample*> one(glm::dot(d, d), &sample);
+    for (auto& begin : begins) {
+      if (one.first < begin.first) std::swap(one, begin);
+      if (one.second == nullptr || one.second->piece == begin.second->piece) break;
+    }
+  }
   double nearest = 1e300;
   bool isInside = false;
-  for (size_t k = 0; k < tried; ++k) {
-    const SplinePoint at = approach(grid.pieces[begins[k].piece], begins[k].st, p);
+  for (const auto& [d2, sample] : begins) {
+    if (sample == nullptr) break;
+    const SplinePoint at = approach(grid_.pieces[sample->piece], sample->st, p);
     const double distance = glm::distance(at.position, p);
     if (!(distance < nearest)) continue;
     nearest = distance;

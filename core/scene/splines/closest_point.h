@@ -9,7 +9,21 @@ namespace restlab {
 // only others close are open.
 bool isClosedSurface(const BezierGrid& grid);
 
-// Whether a point is on the inner side of the closest point of a closed surface.
-bool isInsideSurface(const BezierGrid& grid, const glm::dvec3& p);
+// A closed surface with samples for its closest points.
+class ClosedSurface {
+ public:
+  explicit ClosedSurface(BezierGrid grid);
+  // Whether a point is on the inner side of the closest point of the surface.
+  bool isInside(const glm::dvec3& p) const;
+
+ private:
+  struct Sample {
+    glm::dvec3 position;
+    size_t piece;
+    glm::dvec2 st;
+  };
+  BezierGrid grid_;
+  std::vector<Sample> samples_;
+};
 
 }  // namespace restlab

@@ -72,7 +72,7 @@ MeshGeometry readMeshOfSurface(const ConfigTable& table, const ShapePlace& place
     table.fail("chord_error",
                fmt::format("'chord_error' is {:g}, which takes more than {} triangles "
                            "a piece: {:.3g} would do",
-                           given, kMostTrianglesOfPiece, possible));
+                           given, kMostTrianglesOfPiece, 1.01 * possible));
   if (cells.triangles() > kMostTriangles)
     table.fail(isGiven ? "chord_error" : "",
                fmt::format("the surface takes {} triangles, but at most {}: a larger 'chord_error'",

@@ -157,7 +157,7 @@ SplinePoint evaluate(const NurbsSurface& s, double u, double v) {
         1e-9 * std::pow(std::max(glm::length(point.du), glm::length(point.dv)), 2.0))) {
     const auto [u0, u1] = domainOf(s.u);
     const auto [v0, v1] = domainOf(s.v);
-    const double step = 1e-6;
+    const double step = 1e-7;
     const SplinePoint beside =
         evaluateOnce(s, u + step * (0.5 * (u0 + u1) - u), v + step * (0.5 * (v0 + v1) - v));
     n = glm::cross(beside.du, beside.dv);

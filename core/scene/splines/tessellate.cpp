@@ -17,7 +17,7 @@ struct Bends {
 
 // Derivatives of a rational piece from those of its numerator and weight, which the differences of
 // the net bound. Points are taken relative to the middle of the net, which makes the bounds tight.
-Bends bendsOf(const BezierPiece& piece) {
+Bends bendsOfNet(const BezierPiece& piece) {
   const size_t p = size_t(piece.degreeU), q = size_t(piece.degreeV), width = p + 1;
   glm::dvec3 low(1e300), high(-1e300);
   double least = 1e300;
@@ -55,6 +55,23 @@ Bends bendsOf(const BezierPiece& piece) {
           (vv + 2.0 * wv * rv + wvv * radius) / least};
 }
 
+// The bounds of parts are tighter than those of the whole.
+Bends bendsOf(const BezierPiece& piece) {
+  constexpr int kParts = 4;
+  constexpr double kScale = kParts * kParts;  // of second derivatives, from the part's parameters
+  Bends most;
+  for (int j = 0; j < kParts; ++j) {
+    for (int i = 0; i < kParts; ++i) {
+      const Bends b = bendsOfNet(part(piece, double(i) / kParts, double(i + 1) / kParts,
+                                      double(j) / kParts, double(j + 1) / kParts));
+      most.uu = std::max(most.uu, kScale * b.uu);
+      most.uv = std::max(most.uv, kScale * b.uv);
+      most.vv = std::max(most.vv, kScale * b.vv);
+    }
+  }
+  return most;
+}
+
 double chordBound(const Bends& b, double nu, double nv) {
   return 0.125 * (b.uu / (nu * nu) + 2.0 * b.uv / (nu * nv) + b.vv / (nv * nv));
 }
@@ -67,10 +84,7 @@ PieceCells cellsAt(const Bends& b, double scale) {
   return {count(u), count(v)};
 }
 
-}  // namespace
-
-std::optional<PieceCells> cellsFor(const BezierPiece& piece, double chordError) {
-  const Bends bends = bendsOf(piece);
+std::optional<PieceCells> cellsOf(const Bends& bends, double chordError) {
   double low = 0.0, high = 1.0;
   const auto fits = [&](double scale) {
     const PieceCells cells = cellsAt(bends, scale);
@@ -87,12 +101,19 @@ std::optional<PieceCells> cellsFor(const BezierPiece& piece, double chordError) 
   return cells;
 }
 
+}  // namespace
+
+std::optional<PieceCells> cellsFor(const BezierPiece& piece, double chordError) {
+  return cellsOf(bendsOf(piece), chordError);
+}
+
 double leastChordError(const BezierPiece& piece) {
-  double low = 0.0, high = chordBound(bendsOf(piece), 1.0, 1.0);
-  if (cellsFor(piece, 1e-12 * high)) return 1e-12 * high;
+  const Bends bends = bendsOf(piece);
+  double low = 0.0, high = chordBound(bends, 1.0, 1.0);
+  if (cellsOf(bends, 1e-12 * high)) return 1e-12 * high;
   while (high > 1.02 * low && high > 0.0) {
     const double middle = low > 0.0 ? std::sqrt(low * high) : 1e-3 * high;
-    (cellsFor(piece, middle) ? high : low) = middle;
+    (cellsOf(bends, middle) ? high : low) = middle;
   }
   return high;
 }
