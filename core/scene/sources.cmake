@@ -92,6 +92,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/floor.cpp
   scene/builtin/furnace.cpp
   scene/builtin/shapes.cpp
+  scene/builtin/fields.cpp
   scene/builtin/gallery.cpp
   scene/builtin/glass.cpp
   scene/builtin/many_lights.cpp

@@ -72,6 +72,11 @@ TEST(FeatureScan, BuiltinScenes) {
       {"quad-light", rl::RL_FEATURE_AREA_LIGHTS},
       {"media", rl::RL_FEATURE_ENVIRONMENT | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION |
                     rl::RL_FEATURE_VOLUME},
+      {"implicit",
+       rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_IMPLICIT},
+      {"sdf", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_SDF},
+      {"teapot",
+       rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"ball", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_SPHERE |
                    rl::RL_FEATURE_SHAPE_RECTANGLE},
   };

@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 15> kScenes{{
+const std::array<Entry, 17> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -101,6 +101,11 @@ const std::array<Entry, 15> kScenes{{
                                    .chord = name.value("chord")});
      },
      "Newell's teapot: 32 Bezier pieces, as triangles or met exactly"},
+    {"implicit",
+     [](const BuiltinName& name) { return builtin::makeImplicit(wholeNumber(name, "surface")); },
+     "a surface on which a function of x, y and z is 0, on a floor"},
+    {"sdf", [](const BuiltinName& name) { return builtin::makeSdf(wholeNumber(name, "solid")); },
+     "a solid made of others by their signed distances, on a floor"},
 }};
 
 struct OwnParameter {
@@ -158,6 +163,8 @@ const std::vector<OwnParameter>& ownParameters() {
                                  "how it is represented: as itself, or by fine triangles")},
       {"ball", choiceOf(kRepresentationParameter, builtin::sphereRepresentations(),
                         "how the ball is represented: the same image")},
+      {"implicit", choiceOf("surface", builtin::implicitSurfaces(), "the function")},
+      {"sdf", choiceOf("solid", builtin::solids(), "the solid")},
       {"teapot", choiceOf(kRepresentationParameter, {"mesh", "exact"},
                           "as triangles, or as the surface itself")},
       {"teapot",

@@ -56,6 +56,12 @@ Scene makeBall(size_t representation);
 // "sphere", then others: examples of kinds, a mesh.
 const std::vector<std::string>& sphereRepresentations();
 
+// A surface on which a function is 0, and a solid made of others; indices into the names.
+Scene makeImplicit(size_t surface);
+const std::vector<std::string>& implicitSurfaces();
+Scene makeSdf(size_t solid);
+const std::vector<std::string>& solids();
+
 struct MediaShape {
   double overlap = 0.001;  // overlap of the two bodies, m
   int priority = 0;        // priority of the farther body; the nearer, smaller one has 0

@@ -9,6 +9,7 @@
 #include "core/scene/builtin/mesh.h"
 #include "core/scene/builtin/scenes.h"
 #include "core/scene/shapes/fine_meshes.h"
+#include "core/scene/splines/tessellate.h"
 
 namespace restlab::builtin {
 
@@ -54,7 +55,13 @@ void addStage(SceneBuilder& scene, double halfSize, double height, double lampSi
              glm::scale(above, glm::dvec3(0.5 * lampSide)));
 }
 
-MeshGeometry ballMesh() { return sphere("ball", glm::dvec3(0.0), 1.0, 6); }
+// Triangles of the sphere as a surface of control points, within 1e-4 of it.
+MeshGeometry ballOfNurbs() {
+  const BezierGrid grid = bezierGrid(sphereAsNurbs());
+  return tessellate(grid, gridCells(grid, [](const BezierPiece& piece) {
+                      return cellsFor(piece, 1e-4).value();
+                    }));
+}
 
 // Indices into namedShapes() of what is the unit sphere.
 std::vector<size_t> unitSpheres() {
@@ -138,6 +145,7 @@ const std::vector<std::string>& sphereRepresentations() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names;
     for (const size_t i : unitSpheres()) names.push_back(namedShapes()[i].name);
+    names.push_back("nurbs_mesh");
     names.push_back("mesh");
     return names;
   }();
@@ -154,7 +162,10 @@ Scene makeBall(size_t representation) {
     placeShape(scene, "ball", namedShapes()[spheres[representation]].shape, lacquer, place);
   } else {
     const uint32_t material = scene.addMaterial("ball", lacquer);
-    scene.place("ball", scene.addGeometry(ballMesh()), material, place);
+    const bool isOfNurbs = sphereRepresentations().at(representation) == "nurbs_mesh";
+    MeshGeometry mesh = isOfNurbs ? ballOfNurbs() : sphere("ball", glm::dvec3(0.0), 1.0, 6);
+    mesh.name = "ball";
+    scene.place("ball", scene.addGeometry(std::move(mesh)), material, place);
   }
   scene.addCamera("front", {0.0, 1.8, 4.6}, {0.0, 0.8, 0.0}, 45.0);
   return scene.finish();
