@@ -96,16 +96,24 @@ ClosedSurface::ClosedSurface(BezierGrid grid) : grid_(std::move(grid)) {
   for (size_t k = 0; k < grid_.pieces.size(); ++k) {
     for (size_t j = 0; j <= kSteps; ++j) {
       for (size_t i = 0; i <= kSteps; ++i) {
-        const UnitParameter s = fraction(i, kSteps), t = fraction(j, kSteps);
-        samples_.push_back({evaluate(grid_.pieces[k], s, t).position, k, {s.at, t.at}});
+        // Beside the edges: a pole has no way back.
+        const UnitParameter s = fraction(2 * i + 1, 2 * kSteps + 2),
+                            t = fraction(2 * j + 1, 2 * kSteps + 2);
+        const SplinePoint at = evaluate(grid_.pieces[k], s, t);
+        samples_.push_back({at.position, at.normal, k, {s.at, t.at}});
+        if (i > 0)
+          spacing_ = std::max(spacing_, glm::distance(at.position, samples_.end()[-2].position));
+        if (j > 0)
+          spacing_ = std::max(
+              spacing_, glm::distance(at.position, samples_.end()[-2 - int(kSteps)].position));
       }
     }
   }
 }
 
 bool ClosedSurface::isInside(const glm::dvec3& p) const {
-  // The closest sample of each of the three pieces that come closest.
-  std::array<std::pair<double, const Sample*>, 3> begins;
+  // The closest sample of each of the six pieces that come closest.
+  std::array<std::pair<double, const Sample*>, 6> begins;
   begins.fill({1e300, nullptr});
   for (const Sample& sample : samples_) {
     const glm::dvec3 d = sample.position - p;
@@ -115,14 +123,18 @@ bool ClosedSurface::isInside(const glm::dvec3& p) const {
       if (one.second == nullptr || one.second->piece == begin.second->piece) break;
     }
   }
+  // Far away the closest sample is as good as the closest point, if it is straight below.
+  const double distance = std::sqrt(begins[0].first),
+               height = glm::dot(p - begins[0].second->position, begins[0].second->normal);
+  if (distance > 4.0 * spacing_ && std::abs(height) > 0.7 * distance) return height < 0.0;
   double nearest = 1e300;
   bool isInside = false;
   for (const auto& [d2, sample] : begins) {
     if (sample == nullptr) break;
     const SplinePoint at = approach(grid_.pieces[sample->piece], sample->st, p);
-    const double distance = glm::distance(at.position, p);
-    if (!(distance < nearest)) continue;
-    nearest = distance;
+    const double own = glm::distance(at.position, p);
+    if (!(own < nearest)) continue;
+    nearest = own;
     isInside = glm::dot(p - at.position, at.normal) < 0.0;
   }
   return isInside;

@@ -1,4 +1,4 @@
-// What is inside a closed surface.
+// Tells which points are inside a closed surface.
 #pragma once
 
 #include "core/scene/splines/bezier.h"
@@ -18,12 +18,13 @@ class ClosedSurface {
 
  private:
   struct Sample {
-    glm::dvec3 position;
+    glm::dvec3 position, normal;
     size_t piece;
     glm::dvec2 st;
   };
   BezierGrid grid_;
   std::vector<Sample> samples_;
+  double spacing_ = 0.0;  // largest distance of neighbours
 };
 
 }  // namespace restlab
