@@ -9,7 +9,7 @@
 
 namespace restlab::fuzz {
 
-// What was read has values within its bounds, and a mesh.
+// Checks that a field has values within its bounds, and makes its mesh.
 static void checkField(const FieldProgram& field) {
   const glm::dvec3 low(field.low), high(field.high);
   const FieldRange range = field.over(low, high);

@@ -5,6 +5,7 @@
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_file/scene_file.h"
+#include "core/scene/shapes/shape_info.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace restlab {
@@ -99,6 +100,35 @@ TEST_F(SceneFileShapes, NormalsFollowTheAngleOfCreases) {
   EXPECT_NEAR(ridge("normals = \"smooth\""), 1.0f, 1e-6f);
   EXPECT_NEAR(ridge("", "[[assign]]\nmesh = \"ro*\"\nnormals = 120.0\n"), 1.0f, 1e-6f);
   EXPECT_EQ(ridge("normals = 120", "[[assign]]\nmesh = \"roof\"\nnormals = \"flat\"\n"), 2.0f);
+}
+
+TEST_F(SceneFileShapes, FieldsAreReadFromTheirTexts) {
+  const Scene scene = load(
+      "[[shape]]\nkind = \"implicit\"\nexpression = \"x^2 + y^2 + z^2 - 0.25\"\n"
+      "[[shape]]\nkind = \"sdf\"\ntree = \"plane(0, 0, 1, 0.5)\"\nbox = [-2, -2, 0, 2, 2, 1]\n");
+  ASSERT_EQ(scene.geometries.size(), 2u);
+  const ShapeGeometry& ball = *scene.geometries[0].shape;
+  EXPECT_TRUE(ball.info->isClosed(ball));
+  EXPECT_TRUE(ball.info->isInside(ball, {0.0, 0.4, 0.0}));
+  EXPECT_FALSE(ball.info->isInside(ball, {0.0, 0.6, 0.0}));
+  const ShapeGeometry& sheet = *scene.geometries[1].shape;
+  EXPECT_FALSE(sheet.info->isClosed(sheet));
+  EXPECT_EQ(sheet.info->box(sheet)[1], glm::vec3(2.0f, 2.0f, 1.0f));
+  const std::string implicit = "[[shape]]\nkind = \"implicit\"\n";
+  EXPECT_EQ(errorOf(implicit + "expression = \"x + foo\"\n").substr(0, 59),
+            "x.scene.toml:3:14: 'expression': column 5, 'foo': 'foo' is ");
+  EXPECT_EQ(
+      errorOf(implicit + "expression = \"x - 1/y\"\n"),
+      "x.scene.toml:3:14: 'expression': column 5: '1/y' divides by 0 or by nearly 0 somewhere "
+      "in the box");
+  EXPECT_EQ(
+      errorOf(implicit + "expression = \"x^2 + 1\"\n"),
+      "x.scene.toml:3:14: 'expression' has no surface in the box: nowhere it changes its sign");
+  EXPECT_EQ(errorOf(implicit + "expression = \"x\"\nbox = [1, 0, 0, 0, 1, 1]\n").substr(0, 25),
+            "x.scene.toml:4:7: 'box' i");
+  EXPECT_EQ(errorOf(implicit).substr(0, 17), "x.scene.toml:1:1:");
+  EXPECT_EQ(errorOf("[[shape]]\nkind = \"sdf\"\ntree = \"ball(1)\"\n").substr(0, 46),
+            "x.scene.toml:3:8: 'tree': column 1, 'ball(1)':");
 }
 
 TEST_F(SceneFileShapes, ErrorsSayWhatIsWrong) {

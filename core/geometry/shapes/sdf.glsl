@@ -1,4 +1,4 @@
-// A solid made of others: the program of its signed distance (core/scene/shapes/solid.h), for which
+// A solid made of others: the program of its signed distance (core/scene/field/solid.h), for which
 // rays and points are those of any function (implicit.glsl).
 
 RL_FN bool sdfIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
