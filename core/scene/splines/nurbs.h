@@ -36,7 +36,7 @@ struct SplineFault {
   std::string key;  // degree, size, knots_u, knots_v, points, weights
   std::string message;
 };
-// What is wrong with a surface, and what would be right.
+// The first fault of a surface, and what would be right.
 std::optional<SplineFault> faultOf(const NurbsSurface& surface);
 
 // Knots of a curve that begins and ends in its first and last point, the rest at equal distances
