@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "tests/conformance/variants.h"
+#include "tests/varied_scenes.h"
 
 namespace restlab::conformance {
 namespace {
@@ -97,7 +98,7 @@ TEST_P(Determinism, OwnKernelsAgreeWithTheGeneralOnes) {
 class EveryScene : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(EveryScene, OwnKernelsAgreeWithTheGeneralOnesNightly) {
-  expectOwnKernelsAgree(GetParam(), builtinSceneNames());
+  expectOwnKernelsAgree(GetParam(), test::variedScenes());
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Determinism, ::testing::ValuesIn(byDay(allVariants())),

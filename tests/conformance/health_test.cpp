@@ -3,6 +3,7 @@
 
 #include "core/image/metrics/metrics.h"
 #include "tests/conformance/variants.h"
+#include "tests/varied_scenes.h"
 
 namespace restlab::conformance {
 namespace {
@@ -23,7 +24,7 @@ class Healthy : public ::testing::TestWithParam<Variant> {
 };
 
 TEST_P(Healthy, OnEveryBuiltinScene) {
-  for (const std::string& scene : builtinSceneNames()) {
+  for (const std::string& scene : test::variedScenes()) {
     expectHealthy(scene, configOf(GetParam(), 64, 36), 8);
   }
 }

@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "tests/conformance/variants.h"
 #include "tests/denoise/layered_images.h"
+#include "tests/varied_scenes.h"
 #include "experiments/statistics/welch.h"
 
 namespace restlab::denoise {
@@ -56,7 +57,7 @@ TEST_P(FilterEnergy, IsWithinOnePercent) {
 const std::vector<std::string> kDaily = {"cornell-box", "door-ajar", "glossy-gallery", "courtyard"};
 
 std::vector<std::string> nightly() {
-  std::vector<std::string> scenes = builtinSceneNames();
+  std::vector<std::string> scenes = test::variedScenes();
   std::erase_if(scenes, [](const std::string& name) {
     return std::find(kDaily.begin(), kDaily.end(), name) != kDaily.end();
   });

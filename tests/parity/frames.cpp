@@ -19,6 +19,7 @@
 #include "tests/parity/reads.h"
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/ray_cases.h"
+#include "tests/varied_scenes.h"
 
 namespace restlab::parity {
 
@@ -261,7 +262,8 @@ FrameDifference classify(const std::shared_ptr<const CompiledScene>& scene, Sess
 }
 
 std::vector<std::string> sceneNames() {
-  std::vector<std::string> names = builtinSceneNames();
+  std::vector<std::string> names = test::variedScenes();
+  std::erase(names, "shapes");  // the file has one of each kind
   names.emplace_back("everything");
   names.emplace_back("materials");
   return names;
@@ -288,7 +290,7 @@ Scene makeScene(const std::string& name) {
   if (name == "everything") return makeEverythingScene();
   if (name == "materials")  // every kind of closure
     return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/materials.scene.toml");
-  if (name == "shapes")  // every kind of shape
+  if (name == "shapes-file")  // every kind of shape
     return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/shapes.scene.toml");
   return isGate(name) ? loadScene(gateFile(name).string()) : makeBuiltinScene(name);
 }

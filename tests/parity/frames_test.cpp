@@ -272,7 +272,7 @@ void expectGeneralKernels(const Combination& what) {
   if (isOfEveryPass(what)) expectValidFrame(what, "everything", kVulkan);
   expectParity(what, scenes, kVulkan, kCpuEmbree, kSmall);
   if (what.integrator == "path" && what.denoiser == "none")  // closures and shapes are the walker's
-    expectParity(what, {"materials", "shapes"}, kVulkanSpecialised, kCpuEmbree, kSmall);
+    expectParity(what, {"materials", "shapes-file"}, kVulkanSpecialised, kCpuEmbree, kSmall);
   if (!isOfEveryPass(what)) return;
   for (const char* scene : {"everything", "cornell-box"})
     expectSameBitsByBothReads(what, scene, kVulkan);
@@ -290,7 +290,7 @@ void expectReuse(const Combination& what) {
   expectParity(what, scenes, kVulkanSpecialised, kCpuBvh, kSmall);
   // Shapes as lights, at x1 and at x2.
   if (isUnbiased && what.cache == "pixel")
-    expectParity(what, {"shapes"}, kVulkanSpecialised, kCpuEmbree, kSmall);
+    expectParity(what, {"shapes-file"}, kVulkanSpecialised, kCpuEmbree, kSmall);
   expectValidFrame(what, "cornell-box", kVulkanSpecialised);
   // Intersectors, reads and histories are those of all methods.
   if (!isUnbiased || what.integrator != bias::kRunsWithAll) return;

@@ -10,6 +10,7 @@
 #include "tests/unit/bvh_context.h"
 #include "tests/unit/random_inputs.h"
 #include "tests/unit/ray_cases.h"
+#include "tests/varied_scenes.h"
 
 namespace restlab::unit {
 namespace {
@@ -67,13 +68,13 @@ void expectAgreement(const RayAgreement& c, const std::string& name) {
 }
 
 TEST(Bvh, AgreesWithEmbreeOnBuiltinScenes) {
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     expectAgreement(compareScene(CompiledScene::build(makeBuiltinScene(name)), 50'000), name);
   }
 }
 
 TEST(BvhNightly, AgreesWithEmbreeOnBuiltinScenes) {
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     expectAgreement(compareScene(CompiledScene::build(makeBuiltinScene(name)), 1'000'000), name);
   }
 }

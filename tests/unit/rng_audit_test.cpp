@@ -17,6 +17,7 @@
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/scene.h"
 #include "tests/bias/few_entries.h"
+#include "tests/varied_scenes.h"
 
 namespace restlab::unit {
 namespace {
@@ -189,7 +190,7 @@ const std::map<std::string, rl::CpuKernelEntry> kRestirKernels = {
     {"voxel_propose", rl::kernel_voxel_propose_audited}};
 
 TEST(RngAudit, Path) {
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     expectNoRepeats({name, {"path", "unbiased", {{"path", rl::kernel_path_audited}}}},
                     "path, " + name);
   }
@@ -202,12 +203,12 @@ TEST(RngAudit, PathsThatEnd) {
                                {"radiance_every", int64_t{1}}};
   const std::map<std::string, rl::CpuKernelEntry> kernels = {
       {"path", rl::kernel_path_audited}, {"radiance_trace", rl::kernel_radiance_trace_audited}};
-  for (const std::string& name : builtinSceneNames())
+  for (const std::string& name : test::variedScenes())
     expectNoRepeats({name, {"path", "unbiased", kernels, "", ending}}, "path that ends, " + name);
 }
 
 TEST(RngAudit, Template) {
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     expectNoRepeats({name, {"template", "unbiased", {{"template", rl::kernel_template_audited}}}},
                     "template, " + name);
   }
@@ -219,7 +220,7 @@ TEST(RngAudit, RestirGi) {
                              {"validate_every", int64_t{1}},
                              {"spatial_neighbours", int64_t{rl::RL_MAX_DONORS}},
                              {"spatial_rounds", int64_t{2}}};
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     for (const std::string mode : {"unbiased", "biased"}) {
       Audited audited{"restir_gi", mode.c_str(), kRestirKernels};
       expectNoRepeats({name, audited}, "restir_gi " + mode + ", " + name);
@@ -233,7 +234,7 @@ TEST(RngAudit, RestirGi) {
 TEST(RngAudit, RestirDi) {
   const std::map<std::string, rl::CpuKernelEntry> kernels = {
       {"initial", rl::kernel_restir_di_initial_audited}};
-  for (const std::string& name : builtinSceneNames())
+  for (const std::string& name : test::variedScenes())
     expectNoRepeats({name, {"restir_di", "unbiased", kernels}}, "restir_di, " + name);
 }
 
@@ -244,7 +245,7 @@ TEST(RngAudit, RestirGiWithEntries) {
                              {"entries", int64_t{4096}},
                              {"entry_proposals", int64_t{rl::RL_MAX_DONORS}},
                              {"feed_every", int64_t{1}}};
-  for (const std::string& name : builtinSceneNames()) {
+  for (const std::string& name : test::variedScenes()) {
     if (name == "media") continue;  // no surface whose paths can be exchanged
     for (const std::string& cache : bias::cachesWithEntries()) {
       ASSERT_TRUE(kRestirKernels.contains(cache + "_propose")) << "it draws, and is not audited";
