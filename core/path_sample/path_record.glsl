@@ -233,14 +233,15 @@ RL_FN void onEmission(RL_INOUT(PathRecord) p, RL_IN(Walk) walk, RL_IN(Surface) s
       p.bsdfHitCoverage = surfaceAlpha(hit);
       p.found.radiance *= p.bsdfHitCoverage;
     }
-    // Unlit surfaces are not in the light table and shine to both sides. Shapes without draws are
-    // not in it, either.
+    // Unlit surfaces and ambient light are not in the light table and shine to both sides. Lamps
+    // of shapes without draws are not in it, either.
     p.found.isTwoSided = RL_MATERIAL_DOUBLE_SIDED;
     if (s.light != RL_INVALID) {
       p.found.isTwoSided = recordLight(s.light).flags & RL_MATERIAL_DOUBLE_SIDED;
     } else if (RL_HAS_SHAPES) {
-      uint flags = recordMaterial(recordInstance(s.id.instance).material).flags;
-      if ((flags & RL_MATERIAL_UNLIT) == 0u) p.found.isTwoSided = flags & RL_MATERIAL_DOUBLE_SIDED;
+      Material m = recordMaterial(recordInstance(s.id.instance).material);
+      bool isLamp = (m.flags & RL_MATERIAL_UNLIT) == 0u && rlLuminance(m.emission) > 0.0f;
+      if (isLamp) p.found.isTwoSided = m.flags & RL_MATERIAL_DOUBLE_SIDED;
     }
     p.bsdfHitIntegrand = p.fX1 * s.emission * geometry;
 #ifdef RL_PATH_REPLAYS

@@ -69,6 +69,51 @@ double angleAt(const MeshGeometry& mesh, const glm::uvec3& t, int corner) {
   return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
+bool isSlim(const glm::dvec3& faceNormal) { return faceNormal == glm::dvec3(0.0); }
+
+// The angle of directions about an axis.
+class Turn {
+ public:
+  explicit Turn(const glm::dvec3& axis) {
+    const double length = glm::length(axis);
+    if (!(length > 0.0)) return;
+    const glm::dvec3 z = axis / length;
+    x_ = glm::normalize(
+        glm::cross(z, std::abs(z.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    y_ = glm::cross(z, x_);
+  }
+  double angle(const glm::dvec3& direction) const {
+    return std::atan2(glm::dot(direction, y_), glm::dot(direction, x_));
+  }
+
+ private:
+  glm::dvec3 x_{1, 0, 0}, y_{0, 1, 0};
+};
+
+// Gives each corner of a face without an area the normal of another face at its vertex, or else in
+// its place.
+void joinSlimCorners(const MeshGeometry& mesh, const std::vector<glm::dvec3>& faces,
+                     const std::vector<uint32_t>& places, CornerSets& sets) {
+  constexpr uint32_t kNone = ~0u;
+  std::vector<uint32_t> atVertex(mesh.positions.size(), kNone), atPlace(atVertex);
+  const auto count = uint32_t(3 * mesh.triangles.size());
+  const auto vertexOf = [&](uint32_t corner) {
+    return mesh.triangles[corner / 3][int(corner % 3)];
+  };
+  for (uint32_t corner = 0; corner < count; ++corner) {
+    if (isSlim(faces[corner / 3])) continue;
+    const uint32_t vertex = vertexOf(corner);
+    if (atVertex[vertex] == kNone) atVertex[vertex] = corner;
+    if (atPlace[places[vertex]] == kNone) atPlace[places[vertex]] = corner;
+  }
+  for (uint32_t corner = 0; corner < count; ++corner) {
+    if (!isSlim(faces[corner / 3])) continue;
+    const uint32_t vertex = vertexOf(corner);
+    const uint32_t other = atVertex[vertex] != kNone ? atVertex[vertex] : atPlace[places[vertex]];
+    if (other != kNone) sets.join(corner, other);
+  }
+}
+
 // Joins the corners at both ends of every edge that is not sharper than the angle.
 CornerSets joinedCorners(const MeshGeometry& mesh, const std::vector<glm::dvec3>& faces,
                          double degrees) {
@@ -81,6 +126,7 @@ CornerSets joinedCorners(const MeshGeometry& mesh, const std::vector<glm::dvec3>
   };
   std::vector<Edge> edges;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (isSlim(faces[t])) continue;  // it would join its neighbours through itself
     for (uint32_t c = 0; c < 3; ++c) {
       const uint32_t next = (c + 1) % 3;
       Edge edge{places[mesh.triangles[t][int(c)]], places[mesh.triangles[t][int(next)]], 3 * t + c,
@@ -97,16 +143,28 @@ CornerSets joinedCorners(const MeshGeometry& mesh, const std::vector<glm::dvec3>
   });
   // Rounding: faces of one plane, and faces at exactly the angle, are joined.
   constexpr double kRounding = 1e-6;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    for (size_t k = i + 1;
-         k < edges.size() && edges[k].low == edges[i].low && edges[k].high == edges[i].high; ++k) {
-      const glm::dvec3 a = faces[edges[i].atLow / 3], b = faces[edges[k].atLow / 3];
-      const bool isSlim = a == glm::dvec3(0.0) || b == glm::dvec3(0.0);
-      if (!isSlim && glm::dot(a, b) < least - kRounding) continue;
-      sets.join(edges[i].atLow, edges[k].atLow);
-      sets.join(edges[i].atHigh, edges[k].atHigh);
+  std::vector<std::pair<double, Edge>> around;
+  for (size_t i = 0, end = 0; i < edges.size(); i = end) {
+    const glm::dvec3 low(mesh.positions[edges[i].low]), high(mesh.positions[edges[i].high]);
+    const Turn turn(high - low);
+    around.clear();
+    for (end = i;
+         end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;
+         ++end)
+      around.emplace_back(turn.angle(faces[edges[end].atLow / 3]), edges[end]);
+    // Normals of the faces at an edge lie on a circle: where two of them are near, so are all
+    // between them, and joining neighbours joins all that joining every pair would.
+    std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.first, a.second.atLow) < std::tie(b.first, b.second.atLow);
+    });
+    for (size_t k = 0; k < around.size() && around.size() > 1; ++k) {
+      const Edge &a = around[k].second, &b = around[(k + 1) % around.size()].second;
+      if (glm::dot(faces[a.atLow / 3], faces[b.atLow / 3]) < least - kRounding) continue;
+      sets.join(a.atLow, b.atLow);
+      sets.join(a.atHigh, b.atHigh);
     }
   }
+  joinSlimCorners(mesh, faces, places, sets);
   return sets;
 }
 

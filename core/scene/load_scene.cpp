@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <exception>
 
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
@@ -133,29 +134,45 @@ std::vector<fs::path> foldersFor(const fs::path& path) {
   return folders;
 }
 
+std::optional<uint32_t> bouncesOf(const std::string& nameOrPath, int depth);
+
+// glTF files that are damaged have none: loading says what is wrong with them.
+std::optional<uint32_t> bouncesOfGltfOrNone(const fs::path& file) {
+  try {
+    return bouncesOfGltf(file);
+  } catch (const std::exception&) {  // also of memory
+    return {};
+  }
+}
+
 // `depth`: of scene files that begin with each other.
 std::optional<uint32_t> bouncesOfFile(const fs::path& file, const std::string& settings,
                                       int depth) {
   if (isMitsubaFile(file)) return bouncesOfMitsuba(file, settings);
-  if (!isSceneFile(file) || depth > 8) return {};
+  if (!isSceneFile(file)) return bouncesOfGltfOrNone(file);
+  if (depth > 8) return {};
   const std::string base = ConfigTable::parseFile(file).getString("base", "");
   if (base.empty() || isBuiltinScene(base)) return {};
   const auto [name, ofBase] = splitSceneSettings(base);
   const fs::path beside = file.parent_path() / name;
   std::error_code error;
   if (fs::exists(beside, error)) return bouncesOfFile(resolve(beside), ofBase, depth + 1);
-  return suggestedBounces(base);
+  return bouncesOf(base, depth + 1);
+}
+
+std::optional<uint32_t> bouncesOf(const std::string& nameOrPath, int depth) {
+  if (nameOrPath.empty() || isBuiltinScene(nameOrPath)) return {};
+  const auto [name, settings] = splitSceneSettings(nameOrPath);
+  for (const fs::path& folder : foldersFor(name))
+    if (const fs::path file = resolve(folder / name); !file.empty())
+      return bouncesOfFile(file, settings, depth);
+  return {};
 }
 
 }  // namespace
 
 std::optional<uint32_t> suggestedBounces(const std::string& nameOrPath) {
-  if (nameOrPath.empty() || isBuiltinScene(nameOrPath)) return {};
-  const auto [name, settings] = splitSceneSettings(nameOrPath);
-  for (const fs::path& folder : foldersFor(name))
-    if (const fs::path file = resolve(folder / name); !file.empty())
-      return bouncesOfFile(file, settings, 0);
-  return {};
+  return bouncesOf(nameOrPath, 0);
 }
 
 Scene loadScene(const std::string& nameOrPath) {

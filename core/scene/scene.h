@@ -161,6 +161,9 @@ struct Scene {
 // Error (badInput) with one line.
 Scene loadGltf(const std::filesystem::path& file, const std::optional<std::string>& variant = {});
 
+// Scene::maxBounces of a glTF file, without loading all of it. Throws Error (badInput).
+std::optional<uint32_t> bouncesOfGltf(const std::filesystem::path& file);
+
 // Parameter in the name of a built-in scene, "furnace?albedo=0.9"
 // (core/scene/builtin/name.h).
 struct SceneParameter {

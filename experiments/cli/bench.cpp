@@ -225,7 +225,7 @@ Json ratesJson(const BackendRates& rates, const std::string& backend, const std:
           {"device", device},
           {"ray_tracing", rayTracing},
           {"primary_rays_per_second", rates.primary},
-          {"shadow_rays_per_second", rates.shadow},
+          {"shadow_rays_per_second", rates.shadow > 0.0 ? Json(rates.shadow) : Json()},
           {"incoherent_rays_per_second", rates.incoherent},
           {"copied_bytes_per_second", rates.bytesPerSecond}};
 }
@@ -234,10 +234,12 @@ void printRates(const Json& backends) {
   print("\n{:<8} {:<8} {:>8} {:>8} {:>10}   million rays per second; GB/s of a copy\n", "kernels",
         "rays by", "primary", "shadow", "incoherent");
   for (const Json& rates : backends) {
-    print("{:<8} {:<8} {:>8.2f} {:>8.2f} {:>10.2f}   {:.1f} GB/s   {}\n",
+    print("{:<8} {:<8} {:>8.2f} {:>8} {:>10.2f}   {:.1f} GB/s   {}\n",
           rates["backend"].get<std::string>(), rates["ray_tracing"].get<std::string>(),
           rates["primary_rays_per_second"].get<double>() / 1e6,
-          rates["shadow_rays_per_second"].get<double>() / 1e6,
+          rates["shadow_rays_per_second"].is_null()
+              ? std::string("-")
+              : fmt::format("{:.2f}", rates["shadow_rays_per_second"].get<double>() / 1e6),
           rates["incoherent_rays_per_second"].get<double>() / 1e6,
           rates["copied_bytes_per_second"].get<double>() / 1e9, rates["device"].get<std::string>());
   }
@@ -299,7 +301,7 @@ void printMeasured(const Json& json) {
   print("peak resident memory {:.0f} MiB\n", json["peak_resident_mib"].get<double>());
 }
 
-// Measures lines across the scene on the backends of `configs`, in turns.
+// Measures lines across the scene on the backends of `configs`, one after the other.
 void benchLines(const PreparedScene& prepared, const std::vector<SessionConfig>& configs,
                 const BenchOptions& options) {
   const RaySets rays = makeLines(prepared, configs[0].width, configs[0].height);
@@ -311,12 +313,13 @@ void benchLines(const PreparedScene& prepared, const std::vector<SessionConfig>&
                                  c.backend, backend->device(), backend->rayTracing()));
   }
   if (options.json) {
-    printJsonText(Json{
-        {"scene", prepared.scene->source().name},
-        {"machine", machineJson()},
-        {"build", buildJson()},
-        {"backends",
-         backends}}.dump(2));
+    const Json json = {{"scene", prepared.scene->source().name},
+                       {"width", configs[0].width},
+                       {"height", configs[0].height},
+                       {"machine", machineJson()},
+                       {"build", buildJson()},
+                       {"backends", backends}};
+    printJsonText(json.dump(2));
   } else {
     print("{}: rays of the camera, and lines between points of a sphere around the scene\n",
           prepared.scene->source().name);
@@ -422,7 +425,9 @@ Action addBenchVerb(CLI::App& app) {
   verb->add_option("--reference-spp", options->referenceSpp, "for the error (default 128)")
       ->transform(wholeNumberFrom(2, uint64_t(1) << 20));
   verb->add_flag("--rays-alone", options->raysAlone,
-                 "rays of the camera and lines across the scene, and nothing else");
+                 "rays of the camera and lines across the scene, and nothing else")
+      ->excludes("--frames")
+      ->excludes("--reference-spp");
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { bench(*options); };
 }

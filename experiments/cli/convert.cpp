@@ -3,12 +3,14 @@
 
 #include <memory>
 
+#include "core/base/error.h"
 #include "core/image/io/atomic_file.h"
 #include "core/scene/gltf_write/gltf_write.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "core/scene/scene_write/scene_write.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
 
@@ -27,6 +29,14 @@ void writeSceneFile(const Scene& scene, const std::string& output) {
   print("{}: {} materials, {} more in comments\n", output, file.named, file.commentary);
 }
 
+// Folders, stems and bases name files, too, that the scene is made from.
+void requireOtherFile(const Scene& scene, const std::string& output) {
+  for (const std::filesystem::path& file : filesOfScene(scene))
+    if (resolvedPath(file) == resolvedPath(output))
+      failUsage(fmt::format("-o {}: is a file that the scene is made from; give it another name",
+                            output));
+}
+
 void convert(const ConvertOptions& options) {
   const bool isToml = isSceneFile(options.output);
   checkOutputs({{"-o", options.output, isToml ? ".toml" : ".gltf", ", or *.scene.toml"}},
@@ -34,6 +44,7 @@ void convert(const ConvertOptions& options) {
   const Scene scene = loadScene(options.request.scene);
   for (const std::string& warning : scene.warnings) logWarning(warning);
   for (const std::string& note : scene.notes) logInfo(note);
+  requireOtherFile(scene, options.output);
   if (isToml) return writeSceneFile(scene, options.output);
   for (const std::string& note : writeGltf(scene, options.output)) logWarning(note);
   print("{}: {} meshes, {} instances, {} materials, {} textures\n", options.output,

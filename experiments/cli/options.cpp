@@ -12,6 +12,7 @@
 #include "core/backend/backend.h"
 #include "core/base/config.h"
 #include "core/base/error.h"
+#include "core/scene/scene_file/scene_file.h"
 #include "core/frame/cache.h"
 #include "core/frame/method.h"
 #include "core/frame/method_settings.h"
@@ -151,7 +152,9 @@ void addTransport(CLI::App& verb, TransportTexts& given,
   for (const ParameterInfo& info : transportSchema().infos()) {
     if (!isMeant(info)) continue;
     const std::string help =
-        fmt::format("{} (default {})", info.help, settingText(info.defaultValue));
+        fmt::format("{} (default{} {})", info.help,
+                    info.name == "max_bounces" ? ": those of the scene's file, else" : "",
+                    settingText(info.defaultValue));
     std::string names = optionName(info.name);
     if (info.name == "russian_roulette") names = "--rr," + names;
     if (std::holds_alternative<bool>(info.defaultValue)) {
@@ -304,8 +307,8 @@ void completeConfig(const PreparedScene& prepared, const SceneOptions& options,
 
 void checkOutputs(const std::vector<OutputFile>& outputs, const SceneRequest& request) {
   std::map<std::filesystem::path, std::string> taken;  // resolved file -> what it is
-  for (const auto& [what, name] :
-       {std::pair("scene", request.scene), std::pair("environment", request.environment)}) {
+  for (const auto& [what, name] : {std::pair("scene", splitSceneSettings(request.scene).first),
+                                   std::pair("environment", request.environment)}) {
     const std::filesystem::path found = findAsset(name);
     if (!found.empty()) taken.emplace(resolvedPath(found), what);
   }

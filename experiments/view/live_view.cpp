@@ -75,7 +75,7 @@ LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
   firstSeed_ = settings_.panes.front().config.seed;
   const Scene& scene = loaded_.scene->source();
   if (isSceneFile(scene.source))
-    fileMaterials_ = sceneFileMaterials(scene.source, splitSceneSettings(scene.name).second);
+    fileMaterials_ = sceneFileMaterials(scene.source, settingsOfScene(scene));
   edited_ = editedBy(settings_.materials);
   prepared_ = litBy(edited_, settings_.lights);
   requireMemory(settings_);

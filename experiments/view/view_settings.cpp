@@ -126,17 +126,32 @@ struct Change {
     text = fmt::format("{}: {} = {}", letterOf(command.pane), command.name, parameterText(value));
   }
 
+  // Takes mirroring and shift, which a page does not know, from the scene's camera at the place.
+  // Among several there, one with the same angle is meant.
+  void takeUnsaid(const SceneCamera& before, SceneCamera& camera) const {
+    const bool isMoved = !isSamePlace(before.cameraToWorld, camera.cameraToWorld);
+    if (!isMoved && before.yfov == camera.yfov) return;
+    const SceneCamera* meant = nullptr;
+    for (const SceneCamera& known : choices.scene->cameras) {
+      if (!isSamePlace(known.cameraToWorld, camera.cameraToWorld)) continue;
+      const bool hasAngle = known.yfov == camera.yfov;
+      if (hasAngle || (isMoved && !meant)) meant = &known;
+      if (hasAngle) break;
+    }
+    if (!meant) return;
+    camera.isMirrored = meant->isMirrored;
+    camera.shift = meant->shift;
+  }
+
   void operator()(const MoveCamera& command) {
     SceneCamera& camera = settings.camera;
+    const SceneCamera before = camera;
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row)
         camera.cameraToWorld[column][row] = command.toWorld[size_t(4 * column + row)];
     }
     if (command.yfov) camera.yfov = *command.yfov;
-    // A page does not know mirroring: take it from the scene's camera at the same place.
-    for (const SceneCamera& known : choices.scene->cameras)
-      if (isSamePlace(known.cameraToWorld, camera.cameraToWorld))
-        camera.isMirrored = known.isMirrored;
+    takeUnsaid(before, camera);
     text = "camera";
   }
 

@@ -132,6 +132,18 @@ TEST_F(MitsubaTest, ImagesFindTheirSceneAgain) {
   EXPECT_EQ(compared.code, 0) << compared.err;
 }
 
+// Settings behind the name do not hide which file it is.
+TEST_F(MitsubaTest, ConvertDoesNotWriteOverItsScene) {
+  const std::string text = "base = \"cornell-box\"\n";
+  write("box.scene.toml", text);
+  expectError(run("convert box.scene.toml?camera.yfov=60 -o box.scene.toml"), 2,
+              {"box.scene.toml", "is the same file as the scene"});
+  write("second.scene.toml", "base = \"box.scene.toml\"\n");
+  expectError(run("convert second.scene.toml -o box.scene.toml"), 2,
+              {"box.scene.toml", "is a file that the scene is made from"});
+  EXPECT_EQ(read("box.scene.toml"), text);
+}
+
 TEST_F(MitsubaTest, ConvertsToGltf) {
   const ProgramResult result = run("convert room.xml --allow-unknown -o out.gltf");
   ASSERT_EQ(result.code, 0) << result.err;

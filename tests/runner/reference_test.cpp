@@ -342,6 +342,22 @@ TEST(ReferenceCamera, AnotherOneIsAnotherConfiguration) {
   EXPECT_THROW(requireSameConfiguration("a.exr", a.metadata, own.metadata), Error);
 }
 
+// Metadata name a shift only where there is one.
+TEST(ReferenceCamera, WithAnotherShiftIsAnotherConfiguration) {
+  const PreparedScene scene = prepared();
+  SceneCamera shifted = aside(scene), plain = shifted;
+  shifted.shift = {0.5, 0.0};
+  std::map<std::string, std::string> a = {{"scene_hash", "one"}}, b = a;
+  describeCamera(plain, a);
+  describeCamera(shifted, b);
+  EXPECT_THROW(requireSameConfiguration("a.exr", a, b), Error);
+  EXPECT_THROW(requireSameConfiguration("b.exr", b, a), Error);
+  EXPECT_NO_THROW(requireSameConfiguration("a.exr", {{"scene_hash", "one"}}, b)) << "no camera";
+  EXPECT_EQ(pictureWord(a, "camera_shift"), "0 0");
+  describeCamera(plain, b);
+  EXPECT_EQ(b, a) << "nothing of the earlier camera stays";
+}
+
 TEST_F(ReferenceRendering, OfAnotherCameraIsExtendedToo) {
   const PreparedScene scene = prepared();
   ReferenceConfig config = smallConfig();

@@ -68,6 +68,39 @@ TEST_F(SceneSettings, WinOverTheSuites) {
   EXPECT_FALSE(other.hasMovingCamera());
 }
 
+// Results keep what each scene's file said of its bounces, also that it said nothing.
+TEST_F(SceneSettings, KeepTheBouncesOfTheirFiles) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder() / name) << text;
+    return folder() / name;
+  };
+  const std::string limit = "<integer name=\"max_depth\" value=\"3\"/>";
+  const auto sceneOf = [](const std::string& inside) {
+    return "<scene version=\"3.0.0\"><integrator type=\"path\">" + inside + "</integrator></scene>";
+  };
+  const auto bouncesOf = [](const Suite& suite) {
+    std::vector<uint32_t> bounces;
+    for (const SuiteScene& scene : suite.scenes)
+      bounces.push_back(ofScene(suite, scene).maxBounces);
+    return bounces;
+  };
+  write("limited.xml", sceneOf(limit));
+  write("free.xml", sceneOf(""));
+  const Suite first = load("scenes = [\"limited.xml\", \"free.xml\", \"furnace\"]\n");
+  EXPECT_EQ(bouncesOf(first), (std::vector<uint32_t>{2, 8, 8}));
+  write("limited.xml", sceneOf(""));
+  write("free.xml", sceneOf(limit));
+  const Suite again = loadSuite(write("again.toml", first.resolved), {});
+  EXPECT_EQ(bouncesOf(again), bouncesOf(first));
+  EXPECT_EQ(again.resolved, first.resolved);
+  // Scenes that the table leaves out have the bounces of their files.
+  const std::string scenes = "scenes = [\"limited.xml\", \"free.xml\"]\n[scene_bounces]\n";
+  EXPECT_EQ(bouncesOf(load(scenes + "limited = 5\n")), (std::vector<uint32_t>{5, 2}));
+  const std::string unknown = errorOf(scenes + "limitd = 5\n");
+  EXPECT_NE(unknown.find("unknown key 'limitd', did you mean 'limited'?"), std::string::npos)
+      << unknown;
+}
+
 TEST_F(SceneSettings, TakeThePathsLights) {
   const Suite suite = load(sceneWith("camera_path = \"dimmed\"\n"));
   const Suite own = ofScene(suite, suite.scenes[0]);

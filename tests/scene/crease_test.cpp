@@ -84,6 +84,34 @@ TEST(Crease, AFineSphereHasTheNormalsOfASphere) {
   EXPECT_LT(worst, 3e-3f);  // radians
 }
 
+// Pairs of a million faces would take days.
+TEST(Crease, ManyFacesAtOneEdge) {
+  constexpr uint32_t kFaces = 200000;
+  MeshGeometry mesh;
+  mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+  for (uint32_t i = 0; i < kFaces; ++i) {
+    const double angle = (i % 2 == 0 ? 0.0 : 1.5) + 1e-6 * double(i);
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.5);
+    mesh.triangles.emplace_back(0u, 1u, i + 2);
+  }
+  smoothNormals(mesh, 30.0);
+  EXPECT_EQ(mesh.positions.size(), kFaces + 4) << "two fans, each with its ends of the edge";
+}
+
+// A triangle that has collapsed to an edge has both faces there as neighbours.
+TEST(Crease, FacesWithoutAnAreaDoNotBridgeCreases) {
+  MeshGeometry mesh;
+  mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 0, 1}, {1, 0, 3}};
+  smoothNormals(mesh, 30.0);
+  for (const size_t t : {size_t{0}, size_t{2}})
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LT(glm::distance(mesh.normals[mesh.triangles[t][c]], faceOf(mesh, mesh.triangles[t])),
+                1e-6f);
+  EXPECT_EQ(mesh.positions.size(), 6u);
+  for (const glm::vec3& n : mesh.normals) EXPECT_EQ(n.z, 0.0f) << "a neighbour's normal";
+}
+
 TEST(Crease, FacesThatCancelOutKeepANormal) {
   MeshGeometry mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

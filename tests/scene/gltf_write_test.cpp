@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/frame/session.h"
@@ -102,7 +104,13 @@ TEST_F(GltfWrite, TheMitsubaSceneLooksTheSame) {
   const Scene read = again(scene);
   for (MeshGeometry& geometry : scene.geometries)  // as they are written
     if (geometry.shape != nullptr) geometry = fineMesh(*geometry.shape);
-  for (const std::string& note : notes_) ADD_FAILURE() << note;
+  for (const std::string& note : notes_)
+    EXPECT_NE(note.find("are written as triangles"), std::string::npos) << note;
+  EXPECT_TRUE(scene.maxBounces.has_value());
+  EXPECT_EQ(read.maxBounces, scene.maxBounces);
+  EXPECT_EQ(suggestedBounces((folder_.path() / "out.gltf").string()), scene.maxBounces);
+  EXPECT_GT(scene.cameras[0].film.x, 0u);
+  EXPECT_EQ(read.cameras[0].film, scene.cameras[0].film);
   for (const std::string& warning : read.warnings) ADD_FAILURE() << warning;
   EXPECT_EQ(read.geometries.size(), scene.geometries.size()) << "instances share their mesh";
   expectSameTriangles(scene, read);
@@ -198,6 +206,65 @@ TEST_F(GltfWrite, LightsCamerasAndSurroundings) {
   ASSERT_EQ(notes_.size(), 1u);
   EXPECT_NE(notes_[0].find("out.scene.toml"), std::string::npos);
   expectSameImage(scene, read);
+}
+
+// A solid's edges stay sharp: normals are those of the field on each triangle's side.
+TEST_F(GltfWrite, ShapesBecomeTrianglesWithALine) {
+  folder_.write("solid.scene.toml",
+                "[[shape]]\nkind = \"sdf\"\ntree = \"box(1, 0.8, 0.6)\"\n"
+                "[[shape]]\nkind = \"implicit\"\nexpression = \"x^2 + y^2 + z^2 - 0.5\"\n"
+                "[[shape]]\nkind = \"cube\"\n");
+  const Scene read = again(loadScene((folder_.path() / "solid.scene.toml").string()));
+  ASSERT_EQ(notes_.size(), 2u) << "a cube is made of triangles";
+  EXPECT_NE(notes_[0].find("out.gltf: shapes of kind 'implicit'"), std::string::npos) << notes_[0];
+  EXPECT_NE(notes_[1].find("kind 'sdf'"), std::string::npos) << notes_[1];
+  ASSERT_EQ(read.geometries.size(), 3u);
+  const MeshGeometry &box = read.geometries[0], &ball = read.geometries[1];
+  ASSERT_EQ(box.normals.size(), box.positions.size());
+  ASSERT_EQ(ball.normals.size(), ball.positions.size());
+  for (size_t i = 0; i < ball.normals.size(); ++i)
+    EXPECT_LT(glm::distance(ball.normals[i], glm::normalize(ball.positions[i])), 0.02f);
+  size_t flat = 0;
+  for (const glm::vec3& n : box.normals)
+    flat += std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) > 0.999f;
+  EXPECT_GT(double(flat), 0.97 * double(box.normals.size()));
+}
+
+std::string refusal(const Scene& scene, const std::filesystem::path& file) {
+  try {
+    writeGltf(scene, file);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::badUsage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(GltfWrite, NothingIsWrittenOverTheSceneItself) {
+  const std::string text =
+      "[[shape]]\nkind = \"cube\"\n[[light]]\nkind = \"ambient\"\nradiance = 1\n";
+  folder_.write("room.scene.toml", text);
+  const auto file = folder_.path() / "room.scene.toml";
+  const Scene scene = loadScene(file.string());
+  EXPECT_NE(refusal(scene, folder_.path() / "room.gltf").find("that the scene is made from"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "room.bin"));
+  EXPECT_EQ(loadScene(file.string()).contentHash, scene.contentHash);
+  // Surroundings of an earlier run are replaced, edits of the user are not.
+  EXPECT_EQ(refusal(scene, folder_.path() / "other.gltf"), "");
+  EXPECT_EQ(refusal(scene, folder_.path() / "other.gltf"), "");
+  folder_.write("other.scene.toml", "base = \"other.gltf\"\n[camera]\nyfov = 30\n");
+  EXPECT_NE(refusal(scene, folder_.path() / "other.gltf").find("more than what surrounds"),
+            std::string::npos);
+  folder_.write("other.scene.toml", "base = \"room.gltf\"\n");
+  EXPECT_NE(refusal(scene, folder_.path() / "other.gltf").find("more than what surrounds"),
+            std::string::npos);
+  // A base is written over as little as the file that begins with it.
+  folder_.write("child.scene.toml", "base = \"other.gltf\"\n");
+  EXPECT_NE(refusal(loadScene((folder_.path() / "child.scene.toml").string()),
+                    folder_.path() / "other.gltf")
+                .find("that the scene is made from"),
+            std::string::npos);
 }
 
 TEST_F(GltfWrite, FilesThatCannotBeWritten) {

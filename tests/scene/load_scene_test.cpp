@@ -42,6 +42,43 @@ class Variable {
   bool hadOld_ = false;
 };
 
+// A name that is found in the folder of scenes each time has no end of bases.
+TEST(LoadScene, BouncesOfAFileThatBeginsWithItself) {
+  test::TempDirectory directory;
+  directory.write("sub/itself.scene.toml", "base = \"sub/itself.scene.toml\"\n");
+  const Variable scenes("RESTLAB_SCENES", directory.path().string());
+  EXPECT_EQ(suggestedBounces("sub/itself.scene.toml"), std::nullopt);
+}
+
+TEST(LoadScene, BouncesAndFilmsOfGltf) {
+  test::TempDirectory directory;
+  const auto bounces = [&](const std::string& extras, const std::string& film) {
+    directory.write(
+        "a.gltf",
+        "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0], \"extras\": " + extras +
+            "}], \"nodes\": [{\"camera\": 0}], \"cameras\": [{\"type\": "
+            "\"perspective\", \"perspective\": {\"yfov\": 1, \"znear\": 1}, "
+            "\"extras\": {\"restlab\": {\"film\": " +
+            film + "}}}]}");
+    return loadScene((directory.path() / "a.gltf").string());
+  };
+  const Scene scene = bounces("{\"restlab\": {\"max_bounces\": 5}}", "[18, 12]");
+  EXPECT_EQ(scene.maxBounces, 5u);
+  EXPECT_EQ(scene.cameras.at(0).film, glm::uvec2(18, 12));
+  EXPECT_EQ(suggestedBounces((directory.path() / "a.gltf").string()), 5u);
+  EXPECT_EQ(bounces("7", "[18, 12]").maxBounces, std::nullopt);
+  for (const char* bad : {"-1", "1.5", "\"2\"", "2000"})
+    EXPECT_NE(errorOf([&] {
+                bounces(std::string("{\"restlab\": {\"max_bounces\": ") + bad + "}}", "[1, 1]");
+              }).find("a.gltf: scenes[0].extras.restlab.max_bounces: "),
+              std::string::npos)
+        << bad;
+  for (const char* bad : {"[0, 1]", "[1]", "3", "[1, 1.5]"})
+    EXPECT_NE(errorOf([&] { bounces("{}", bad); }).find("cameras[0].extras.restlab.film: "),
+              std::string::npos)
+        << bad;
+}
+
 TEST(LoadScene, FileDirectoryAndStem) {
   test::TempDirectory directory;
   directory.write("room/room.gltf", kEmptyScene);

@@ -214,6 +214,13 @@ TEST_F(MitsubaValues, BouncesOfIntegrators) {
   folder_.load("<integrator type=\"path\">" + depth + rectangleWith(""));
   EXPECT_EQ(suggestedBounces((folder_.path() / "y.scene.toml").string()), 3u);
   EXPECT_EQ(suggestedBounces("no-such-scene"), std::nullopt);
+  try {
+    folder_.load("<integrator type=\"direct\"/>\n<integrator type=\"path\"/>" + rectangleWith(""));
+    FAIL() << "two integrators were read";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(": a second <integrator>, the first is at "), std::string::npos) << text;
+  }
 }
 
 // The middle of a window of 100 x 50 pixels at (300, 0) of a film of 400 x 200 pixels is 150 pixels

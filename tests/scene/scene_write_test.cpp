@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/error.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "core/shading/bsdf.h"
 #include "tests/scene/gltf_builder.h"
@@ -113,6 +114,8 @@ TEST_F(SceneWrite, MaterialsThatWouldChangeAreComments) {
   add(plain("twice", 0.0, 0.5));
   add(plain("twice", 0.0, 0.75));
   add(plain("all*", 0.0, 0.5));
+  add(plain("wall[1]", 0.0, 0.5));
+  add(plain("a\\b", 0.0, 0.5));
   add(plain("alike", 0.0, 0.5));
   add(plain("alike", 0.0, 0.5));
   nlohmann::json tinted = plain("tinted", 0.0, 0.5);
@@ -125,7 +128,7 @@ TEST_F(SceneWrite, MaterialsThatWouldChangeAreComments) {
   add(leaf);
   const SceneFileText text = written();
   EXPECT_EQ(text.named, 2u) << text.text;
-  EXPECT_EQ(text.commentary, 6u) << text.text;
+  EXPECT_EQ(text.commentary, 8u) << text.text;
   EXPECT_NE(text.text.find("# The base has textures for it"), std::string::npos) << text.text;
   EXPECT_NE(text.text.find("# Unlit in the base"), std::string::npos) << text.text;
   EXPECT_NE(text.text.find("# Several materials have this name."), std::string::npos) << text.text;
@@ -140,6 +143,35 @@ TEST_F(SceneWrite, BasesAreNamedFromTheFoldersOfTheirFiles) {
   EXPECT_EQ(baseNameOf(scene, "/scenes/two"), "../one/a.gltf?variant=night");
   scene = makeBuiltinScene("furnace?albedo=0.25");
   EXPECT_EQ(baseNameOf(scene, "/scenes/two"), "furnace?albedo=0.25");
+}
+
+// Names of files without their extension may be those of built-in scenes.
+TEST_F(SceneWrite, SettingsOfFilesNamedAsBuiltInScenes) {
+  file_.directory().write("furnace.scene.toml", "base = \"cornell-box\"\n[camera]\nyfov = 40\n");
+  const std::string file = (file_.directory().path() / "furnace.scene.toml").string();
+  const Scene scene = loadScene(file + "?camera.yfov=60");
+  ASSERT_TRUE(isBuiltinScene(scene.name)) << scene.name;
+  EXPECT_EQ(settingsOfScene(scene), "camera.yfov=60");
+  EXPECT_EQ(baseNameOf(scene, file_.directory().path()), "furnace.scene.toml?camera.yfov=60");
+  EXPECT_EQ(settingsOfScene(loadScene(file)), "");
+  EXPECT_EQ(settingsOfScene(makeBuiltinScene("furnace?albedo=0.25")), "");
+  file_.directory().write("glass.xml",
+                          "<scene version=\"3.0.0\"><default name=\"a\" value=\"1\"/>"
+                          "<shape type=\"sphere\"><float name=\"radius\" value=\"$a\"/></shape>"
+                          "</scene>");
+  const std::string xml = (file_.directory().path() / "glass.xml").string();
+  EXPECT_EQ(settingsOfScene(loadScene(xml + "?a=2")), "a=2");
+}
+
+TEST_F(SceneWrite, NamesThatAreNotUtf8AreComments) {
+  Scene scene = makeBuiltinScene("furnace");
+  scene.materials.at(0).name = "caf\xe9";
+  const SceneFileText text = sceneFileOf(scene, "furnace");
+  EXPECT_EQ(text.text.find('\xe9'), std::string::npos) << text.text;
+  EXPECT_NE(text.text.find("# A name that is not UTF-8"), std::string::npos) << text.text;
+  file_.directory().write("named.scene.toml", text.text);
+  EXPECT_NO_THROW(loadScene((file_.directory().path() / "named.scene.toml").string()));
+  EXPECT_THROW(sceneFileOf(scene, "caf\xe9.gltf"), Error);
 }
 
 }  // namespace

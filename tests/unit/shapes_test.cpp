@@ -251,6 +251,36 @@ TEST_P(Shapes, NoRaySlipsThroughAnEdge) {
   EXPECT_EQ(slipped, 0);
 }
 
+// As rays that pass surfaces do: they go on from the hit itself.
+TEST_P(Shapes, RaysThatGoOnMeetEachCrossingOnce) {
+  if (!GetParam().isClosed) GTEST_SKIP() << "an open shape";
+  LocalShape local(GetParam());
+  Inputs inputs(11);
+  int odd = 0, sameSide = 0, rays = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const glm::vec3 dir = inputs.direction();
+    rl::Ray ray = rayOf(GetParam().inBox(inputs) - dir * (4.0f * GetParam().size()), dir);
+    int crossings = 0;
+    bool isGrazing = false, wasFront = false;
+    rl::Hit hit{};
+    for (; crossings < 64 && local.d->shapeIntersect(local.shape, ray, hit); ++crossings) {
+      const rl::ShapePoint p = local.d->shapePoint(local.shape, idOf(hit));
+      const float cosine = glm::dot(p.normalL, dir);
+      isGrazing = isGrazing || std::abs(cosine) < 0.05f;
+      const bool isFront = cosine < 0.0f;
+      if (crossings > 0 && isFront == wasFront && !isGrazing) ++sameSide;
+      wasFront = isFront;
+      ray.tMin = hit.t;
+    }
+    if (isGrazing) continue;
+    ++rays;
+    odd += crossings % 2;
+  }
+  EXPECT_GT(rays, 3000);
+  EXPECT_EQ(odd, 0) << "of " << rays;
+  EXPECT_EQ(sameSide, 0) << "of " << rays;
+}
+
 TEST_P(Shapes, ClosedOnesDoNotLeak) {
   if (!GetParam().isClosed) GTEST_SKIP() << "an open shape";
   Inputs inputs(5);

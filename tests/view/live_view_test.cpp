@@ -154,6 +154,35 @@ TEST_F(LiveViewTest, AMovedCameraGoesOnWithItsHistory) {
   EXPECT_EQ(pixels(view.session(0)), pixels(gi));
 }
 
+// A page says neither shift nor mirroring: the scene's cameras at the place do.
+TEST_F(LiveViewTest, AScenesCameraIsShownWithItsShift) {
+  PreparedScene prepared = view_test::cornellBox();
+  Scene scene = prepared.scene->source();
+  scene.cameras.resize(1);
+  scene.cameras[0].shift = {0.25, 0.0};
+  for (const double yfov : {0.5, 0.75}) {
+    SceneCamera& other = scene.cameras.emplace_back(scene.cameras[0]);
+    other.cameraToWorld[3][0] += 0.5;
+    other.yfov = yfov;
+    other.shift = {0.0, yfov};
+  }
+  scene.cameras[1].shift = glm::dvec2(0.0);
+  const std::vector<SceneCamera> cameras = scene.cameras;
+  prepared.scene = CompiledScene::build(std::move(scene));
+  LiveView view(prepared, {view_test::smallPane("path")}, {});
+  for (const size_t index : {size_t(1), size_t(2), size_t(0), size_t(2), size_t(1)}) {
+    MoveCamera move;
+    for (int i = 0; i < 16; ++i)
+      move.toWorld[size_t(i)] = cameras[index].cameraToWorld[i / 4][i % 4];
+    move.yfov = cameras[index].yfov;
+    view.apply(move);
+    EXPECT_EQ(view.camera().shift, cameras[index].shift) << index;
+    move.yfov = 0.6;  // no camera's: keeps what is shown
+    view.apply(move);
+    EXPECT_EQ(view.camera().shift, cameras[index].shift) << index;
+  }
+}
+
 TEST_F(LiveViewTest, WhatCannotBeDoneChangesNothing) {
   LiveView view = open();
   view.renderFrames();

@@ -165,6 +165,11 @@ TEST_F(ViewImagesTest, BesideMethodsAreOfTheirScene) {
   start.settings.camera.yfov *= 1.5;
   EXPECT_NE(lineOf([&] { requireImagesOf(start); }, ExitCode::badInput).find("camera_yfov"),
             std::string::npos);
+  start.settings.camera.yfov /= 1.5;
+  start.settings.camera.shift.x = 0.25;
+  EXPECT_NE(lineOf([&] { requireImagesOf(start); }, ExitCode::badInput)
+                .find("camera_shift is 0.25 0, not 0 0"),
+            std::string::npos);
 }
 
 TEST_F(ViewImagesTest, OfResultsAreThoseOfOneTable) {

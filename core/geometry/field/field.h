@@ -38,7 +38,7 @@ const uint RL_FIELD_HEADER = 2u;
 const uint RL_FIELD_SEGMENTS = 384u;
 // Largest bound of a derivative: where a root begins it has none.
 const float RL_FIELD_STEEPEST = 1.0e18f;
-// Rounding error of an operation, relative: with room for devices that divide coarsely.
+// Rounding error of an operation, relative; of divisions and roots see fieldWidenCoarsely().
 const float RL_FIELD_ROUNDING = 2.384185791015625e-7f;
 // Error of sine and cosine (fieldCosSin()).
 const float RL_FIELD_WAVE_ERROR = 3.0e-7f;

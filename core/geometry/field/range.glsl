@@ -7,6 +7,11 @@ RL_FN vec2 fieldWiden(RL_IN(vec2) v) {
   return vec2(max(v.x - slack.x, -RL_FIELD_STEEPEST), min(v.y + slack.y, RL_FIELD_STEEPEST));
 }
 
+// Of a division or a root: devices round them to 2.5 units in the last place and more.
+RL_FN vec2 fieldWidenCoarsely(RL_IN(vec2) v) {
+  return fieldWiden(v - abs(v) * vec2(1.0e-6f, -1.0e-6f));
+}
+
 RL_FN vec2 fieldTimes(float k, RL_IN(vec2) a) {
   return fieldWiden(k < 0.0f ? vec2(k * a.y, k * a.x) : vec2(k * a.x, k * a.y));
 }
@@ -105,12 +110,12 @@ RL_FN_OUTLINE vec4 fieldRange(RL_IN(Field) f, RL_IN(vec3) from, RL_IN(vec3) to, 
       vec2 steep = vec2(min(0.5f / max(v.y, 1.0e-18f), RL_FIELD_STEEPEST),
                         min(0.5f / max(v.x, 1.0e-18f), RL_FIELD_STEEPEST));
       if (a.x <= 0.0f) steep.x = 0.0f;
-      v = fieldWiden(v);
+      v = fieldWidenCoarsely(v);
       v.x = max(v.x, 0.0f);
       d = fieldProduct(steep, da);
     } else if (kind == RL_FIELD_LENGTH) {
       vec2 squares = fieldSum(fieldSquareRange(a), fieldSquareRange(b));
-      v = fieldWiden(sqrt(max(squares, vec2(0.0f, 0.0f))));
+      v = fieldWidenCoarsely(sqrt(max(squares, vec2(0.0f, 0.0f))));
       v.x = max(v.x, 0.0f);
       d = fieldSum(fieldProduct(fieldShare(a, b), da), fieldProduct(fieldShare(b, a), db));
       // Cauchy and Schwarz: never above the length of the derivatives.
@@ -160,8 +165,8 @@ RL_FN_OUTLINE vec4 fieldRange(RL_IN(Field) f, RL_IN(vec3) from, RL_IN(vec3) to, 
       d = fieldProduct(v, da);
     } else if (kind == RL_FIELD_RECIPROCAL) {
       // The program of a shape that divides by 0 in its box is refused.
-      v = fieldWiden(vec2(rlSafeDivide(1.0f, a.y), rlSafeDivide(1.0f, a.x)));
-      v = vec2(min(v.x, v.y), max(v.x, v.y));
+      v = vec2(rlSafeDivide(1.0f, a.y), rlSafeDivide(1.0f, a.x));
+      v = fieldWidenCoarsely(vec2(min(v.x, v.y), max(v.x, v.y)));
       vec2 squared = fieldSquareRange(v);
       d = fieldProduct(vec2(-squared.y, -squared.x), da);
     } else {

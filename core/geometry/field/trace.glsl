@@ -6,10 +6,8 @@
 // Local Lipschitz Bounds", 2020). A hit is the first number behind a change of sign, so that a ray
 // that goes on from there does not meet it again.
 
-// The place at t, of a line that begins at tBase: the same whatever part of the ray is searched.
-RL_FN vec3 fieldPlace(RL_IN(vec3) base, RL_IN(vec3) dir, float tBase, float t) {
-  return base + dir * (t - tBase);
-}
+// The place at t, of a line from where the ray enters the box: the same whatever part is searched.
+RL_FN vec3 fieldPlace(RL_IN(vec3) base, RL_IN(vec3) dir, float t) { return base + dir * t; }
 
 // Parameters at which a line enters and leaves the box; x > y: it misses.
 RL_FN vec2 fieldClip(RL_IN(Field) f, RL_IN(Ray) ray) {
@@ -34,8 +32,8 @@ RL_FN vec2 fieldClip(RL_IN(Field) f, RL_IN(Ray) ray) {
 
 // Narrows a change of sign between t.x and t.y to a few units in the last place: Newton's steps
 // from the end with the smaller value, a little too far, so that both ends move; else halves.
-RL_FN vec2 fieldRefine(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float tBase,
-                       RL_IN(vec2) between, RL_IN(vec2) atLow, RL_IN(vec2) atHigh) {
+RL_FN vec2 fieldRefine(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, RL_IN(vec2) between,
+                       RL_IN(vec2) atLow, RL_IN(vec2) atHigh) {
   vec2 t = between;
   vec2 low = atLow;
   vec2 high = atHigh;
@@ -49,7 +47,7 @@ RL_FN vec2 fieldRefine(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float 
     float tNext = tAt - rlSafeDivide(at.x, at.y) + (fromLow ? 0.5f : -0.5f) * least;
     if ((i & 3u) == 3u || !(tNext > t.x) || !(tNext < t.y)) tNext = t.x + 0.5f * width;
     if (!(tNext > t.x) || !(tNext < t.y)) break;
-    vec2 next = fieldSlope(f, fieldPlace(base, dir, tBase, tNext), dir);
+    vec2 next = fieldSlope(f, fieldPlace(base, dir, tNext), dir);
     if ((next.x < 0.0f) == (low.x < 0.0f)) {
       t.x = tNext;
       low = next;
@@ -62,19 +60,18 @@ RL_FN vec2 fieldRefine(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float 
 }
 
 // Finds the segment in which the sign changes first: (begin, end) of it, or begin > end.
-RL_FN vec2 fieldSearch(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float tBase,
-                       RL_IN(vec2) within) {
+RL_FN vec2 fieldSearch(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, RL_IN(vec2) within) {
   vec2 none = vec2(1.0f, 0.0f);
   float least = max((within.y - within.x) * RL_FIELD_SHORTEST, 4.8e-7f * abs(within.y));
   float t = within.x;
   float width = within.y - within.x;
-  vec3 at = fieldPlace(base, dir, tBase, t);
+  vec3 at = fieldPlace(base, dir, t);
   float value = fieldSlope(f, at, dir).x;
   bool isInside = value < 0.0f;
   for (uint i = 0u; i < RL_FIELD_SEGMENTS; i = i + 1u) {
     float tNext = t + width;
     if (!(tNext < within.y)) tNext = within.y;
-    vec3 next = fieldPlace(base, dir, tBase, tNext);
+    vec3 next = fieldPlace(base, dir, tNext);
     vec4 range = fieldRange(f, at, next, dir);
     if (isInside) range = vec4(-range.y, -range.x, -range.w, -range.z);
     float span = tNext - t;
@@ -86,7 +83,7 @@ RL_FN vec2 fieldSearch(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float 
       width = max(0.5f * span, least);
       if (reach < 0.25f * span || reach < least) continue;
       tNext = t + reach;
-      next = fieldPlace(base, dir, tBase, tNext);
+      next = fieldPlace(base, dir, tNext);
     } else {
       width = 2.0f * span;
       if (isFree && tNext >= within.y) return none;
@@ -99,7 +96,7 @@ RL_FN vec2 fieldSearch(RL_IN(Field) f, RL_IN(vec3) base, RL_IN(vec3) dir, float 
     value = valueNext;
   }
   RL_HEALTH(RL_HEALTH_SEGMENTS);
-  float last = fieldSlope(f, fieldPlace(base, dir, tBase, within.y), dir).x;
+  float last = fieldSlope(f, fieldPlace(base, dir, within.y), dir).x;
   return (last < 0.0f) != isInside ? vec2(t, within.y) : none;
 }
 
@@ -107,20 +104,26 @@ RL_FN_OUTLINE bool fieldIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(H
   Field f = fieldOf(shape);
   vec2 inside = fieldClip(f, ray);
   float tBase = max(inside.x, 0.0f);
-  vec2 within = vec2(max(tBase, ray.tMin), min(inside.y, ray.tMax));
+  if (!(tBase < inside.y)) return false;
+  // From where the ray enters the box: lengths are small there, and so is their rounding.
+  Ray fromBox = ray;
+  fromBox.origin = ray.origin + ray.dir * tBase;
+  inside = fieldClip(f, fromBox);
+  vec2 within = vec2(max(inside.x, max(ray.tMin - tBase, 0.0f)), min(inside.y, ray.tMax - tBase));
   if (!(within.x < within.y)) return false;
-  vec3 base = ray.origin + ray.dir * tBase;
-  vec2 t = fieldSearch(f, base, ray.dir, tBase, within);
+  vec2 t = fieldSearch(f, fromBox.origin, ray.dir, within);
   if (!(t.x < t.y)) return false;
-  vec2 low = fieldSlope(f, fieldPlace(base, ray.dir, tBase, t.x), ray.dir);
-  vec2 high = fieldSlope(f, fieldPlace(base, ray.dir, tBase, t.y), ray.dir);
-  t = fieldRefine(f, base, ray.dir, tBase, t, low, high);
-  if (!(t.y < ray.tMax)) return false;
-  vec3 at = fieldPlace(base, ray.dir, tBase, t.y);
-  // Far away t is coarse: the place is not.
+  vec2 low = fieldSlope(f, fieldPlace(fromBox.origin, ray.dir, t.x), ray.dir);
+  vec2 high = fieldSlope(f, fieldPlace(fromBox.origin, ray.dir, t.y), ray.dir);
+  t = fieldRefine(f, fromBox.origin, ray.dir, t, low, high);
+  float tHit = tBase + t.y;
+  // Not before the change of sign: a ray that goes on from there begins behind it.
+  if (tHit - tBase < t.y) tHit = uintBitsToFloat(floatBitsToUint(tHit) + 1u);
+  if (!(tHit > ray.tMin) || !(tHit < ray.tMax)) return false;
+  vec3 at = fieldPlace(fromBox.origin, ray.dir, t.y);
   vec2 end = fieldSlope(f, at, ray.dir);
   at = at - ray.dir * clamp(rlSafeDivide(end.x, end.y), 0.0f, t.y - t.x);
-  hit.t = t.y;
+  hit.t = tHit;
   SurfaceId id = fieldId(f, at);
   hit.primitive = id.primitive;
   hit.bary = id.bary;

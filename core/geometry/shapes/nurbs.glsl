@@ -242,6 +242,16 @@ RL_FN bool nurbsPieceIntersect(RL_IN(uvec4) head, uint first, uint piece, uint p
     if (!nurbsNewton(head, first, closest, dir, tolerance, pole, st, along)) continue;
     float t = (middle + along) / size;
     if (!(t > ray.tMin) || !(t < (found ? hit.t : ray.tMax))) continue;
+    // Searches that end at one point differ by rounding: a ray that goes on does not meet it again.
+    if (ray.tMin > 0.0f && (t - ray.tMin) * size < 256.0f * tolerance) {
+      vec3 at;
+      vec3 ds;
+      vec3 dt;
+      nurbsEvaluate(head, first, st, at, ds, dt);
+      vec3 n = cross(ds, dt);
+      float cosine = abs(dot(n, dir)) * rlSafeDivide(1.0f, sqrt(dot(n, n)));
+      if ((t - ray.tMin) * size * max(cosine, 0.015625f) < 4.0f * tolerance) continue;
+    }
     hit.t = t;
     hit.primitive = 0u;
     vec2 cell = vec2(float(piece % head.x), float(piece / head.x));

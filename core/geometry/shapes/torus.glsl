@@ -94,7 +94,11 @@ RL_FN bool torusIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit)
   float e = -8.0f * (o.x * dir.x + o.y * dir.y);
   float bend = q < 0.0f ? sqrt(q * (-1.0f / 6.0f)) : 0.0f;  // the quartic's curvature changes here
   float tolerance = 1.0e-6f * r;                            // rounding of torusSide()
-  bool isInside = torusSide(ray.origin + ray.dir * ray.tMin, dir, r).x < 0.0f;
+  vec2 start = torusSide(ray.origin + ray.dir * ray.tMin, dir, r);
+  // A ray that goes on from the surface is on the side to which it goes.
+  float slack = 1.0e-6f * r * (1.0f + sqrt(dot(ray.origin, ray.origin)));
+  bool goesOn = ray.tMin > 0.0f && abs(start.x) < slack;
+  bool isInside = (goesOn ? start.y : start.x) < 0.0f;
   if (begin > ray.tMin * speed - middle) isInside = false;
   float low = begin;
   for (uint piece = 0u; piece < 3u; piece = piece + 1u) {

@@ -168,7 +168,7 @@ const std::vector<OwnParameter>& ownParameters() {
       {"teapot", choiceOf(kRepresentationParameter, {"mesh", "exact"},
                           "as triangles, or as the surface itself")},
       {"teapot",
-       {"chord", std::nullopt, 1e-6, 1.0,
+       {"chord", std::nullopt, 2e-5, 1.0,
         "chord error of the triangles, m; a quarter of a pixel where it is not given"}}};
   return all;
 }

@@ -31,7 +31,7 @@ BuiltinName parseBuiltinName(const std::string& name);
 constexpr const char* kScaleParameter = "scale";
 constexpr const char* kRadianceParameter = "radiance";
 constexpr const char* kMoveParameter = "move";
-// The same surfaces, otherwise represented: the same image.
+// Another representation of the same surfaces: the same image, but for the chord error of meshes.
 constexpr const char* kRepresentationParameter = "as";
 
 // Removes these four from the name of a built-in scene: "furnace?albedo=0.99".

@@ -1,10 +1,13 @@
 // The teapot that Martin Newell drew in 1975, on a floor under one lamp: 32 bicubic Bezier pieces,
 // met exactly or as triangles. Bodies of revolution are given by their profiles, handle and spout
 // by the half on one side. The bottom was added later, by Frank Crow (1987).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/base/error.h"
 #include "core/scene/builtin/builder.h"
 #include "core/scene/builtin/mesh.h"
 #include "core/scene/builtin/scenes.h"
@@ -105,8 +108,14 @@ MeshGeometry teapotMesh(const glm::dmat4& toWorld, double chordError) {
   const std::vector<BezierGrid> pieces = teapotPieces();
   for (const BezierGrid& piece : pieces) {
     const BezierPiece inScene = transformed(piece.pieces[0], toWorld);
-    const auto own = cellsFor(inScene, std::max(chordError, leastChordError(inScene))).value();
-    cells = {std::max(cells.u, own.u), std::max(cells.v, own.v)};
+    const auto own = cellsFor(inScene, chordError);
+    if (!own) {
+      failInput(
+          fmt::format("scene 'teapot': 'chord' takes more than {} triangles a piece; {:.2g} "
+                      "or more would do",
+                      kMostTrianglesOfPiece, 1.1 * leastChordError(inScene)));
+    }
+    cells = {std::max(cells.u, own->u), std::max(cells.v, own->v)};
   }
   MeshGeometry mesh;
   for (const BezierGrid& piece : pieces) {
@@ -119,6 +128,8 @@ MeshGeometry teapotMesh(const glm::dmat4& toWorld, double chordError) {
 }
 
 Scene makeTeapot(const TeapotShape& shape) {
+  if (shape.isExact && shape.chord)
+    failInput("scene 'teapot': 'chord' is of triangles; leave it out beside 'as=exact'");
   SceneBuilder scene("teapot");
   const uint32_t floor = scene.addMaterial("floor", lambert({0.55f, 0.52f, 0.48f}));
   scene.add(grid("floor", {-3.0, 0.0, 3.0}, {6.0, 0.0, 0.0}, {0.0, 0.0, -6.0}, 1, 1), floor);

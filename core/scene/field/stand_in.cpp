@@ -3,8 +3,10 @@
 #include "core/scene/field/stand_in.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace restlab {
 
@@ -116,6 +118,30 @@ MeshGeometry fieldStandIn(const FieldProgram& program) {
     }
   }
   return mesh;
+}
+
+void addFieldNormals(const FieldProgram& program, MeshGeometry& mesh) {
+  constexpr double kInwards = 0.05;  // a corner at an edge is asked on its triangle's side of it
+  MeshGeometry own;
+  own.name = mesh.name;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const std::array<glm::dvec3, 3> p{glm::dvec3(mesh.positions[t.x]),
+                                      glm::dvec3(mesh.positions[t.y]),
+                                      glm::dvec3(mesh.positions[t.z])};
+    const glm::dvec3 face = glm::cross(p[1] - p[0], p[2] - p[0]),
+                     centre = (p[0] + p[1] + p[2]) / 3.0;
+    if (!(glm::length(face) > 0.0)) continue;  // glTF readers refuse normals without a direction
+    const auto first = static_cast<uint32_t>(own.positions.size());
+    for (const glm::dvec3& corner : p) {
+      const glm::dvec3 slope = program.gradientAt(glm::mix(corner, centre, kInwards));
+      const double length = glm::length(slope);
+      const bool isAlong = length > 0.0 && std::isfinite(length) && glm::dot(slope, face) > 0.0;
+      own.positions.emplace_back(corner);
+      own.normals.emplace_back(isAlong ? slope / length : glm::normalize(face));
+    }
+    own.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  if (!own.triangles.empty()) mesh = std::move(own);
 }
 
 }  // namespace restlab

@@ -4,10 +4,29 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "core/scene/gltf/json.h"
 #include "core/scene/gltf/objects.h"
 
 namespace restlab::gltf {
 namespace {
+
+constexpr uint64_t kMostBounces = 1024, kMostFilm = uint64_t{1} << 20;
+
+// `extras.restlab.KEY` of an object; nullptr: it has none.
+const nlohmann::json* ownProperty(const nlohmann::json& object, const char* key) {
+  const nlohmann::json* at = &object;
+  for (const char* name : {"extras", "restlab", key}) {
+    const auto found = at->is_object() ? at->find(name) : at->end();
+    if (found == at->end()) return nullptr;
+    at = &*found;
+  }
+  return at;
+}
+
+bool isWholeUpTo(const nlohmann::json& value, uint64_t least, uint64_t most) {
+  return value.is_number_unsigned() && value.get<uint64_t>() >= least &&
+         value.get<uint64_t>() <= most;
+}
 
 SceneCamera importCamera(const tinygltf::Model& model, int index, Report& report) {
   const tinygltf::Camera& source = model.cameras[static_cast<size_t>(index)];
@@ -107,12 +126,45 @@ PunctualLight importLight(const tinygltf::Light& source, const std::string& plac
 
 }  // namespace
 
-void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene,
-                Report& report) {
+std::optional<uint32_t> readBounces(const nlohmann::json& document, const Report& report) {
+  const nlohmann::json& scenes = arrayOf(document, "scenes");
+  const uint64_t drawn = sizeOf(document, "scene", 0);
+  if (drawn >= scenes.size()) return {};
+  const nlohmann::json* value = ownProperty(scenes[drawn], "max_bounces");
+  if (value == nullptr) return {};
+  if (!isWholeUpTo(*value, 0, kMostBounces))
+    report.fail(fmt::format("scenes[{}].extras.restlab.max_bounces", drawn),
+                fmt::format("is {}; a whole number from 0 to {} expected",
+                            value->is_number() ? value->dump() : typeName(*value), kMostBounces));
+  return value->get<uint32_t>();
+}
+
+std::vector<glm::uvec2> readFilms(const nlohmann::json& document, const Report& report) {
+  std::vector<glm::uvec2> films;
+  for (const nlohmann::json& camera : arrayOf(document, "cameras")) {
+    films.emplace_back(0u);
+    const nlohmann::json* value = ownProperty(camera, "film");
+    if (value == nullptr) continue;
+    const bool isSize = value->is_array() && value->size() == 2 &&
+                        isWholeUpTo((*value)[0], 1, kMostFilm) &&
+                        isWholeUpTo((*value)[1], 1, kMostFilm);
+    if (!isSize)
+      report.fail(
+          fmt::format("cameras[{}].extras.restlab.film", films.size() - 1),
+          fmt::format("is not [width, height]; whole numbers of pixels from 1 to {} expected",
+                      kMostFilm));
+    films.back() = {(*value)[0].get<uint32_t>(), (*value)[1].get<uint32_t>()};
+  }
+  return films;
+}
+
+void addCameras(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
+                const std::vector<glm::uvec2>& films, Scene& scene, Report& report) {
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     if (node.camera < 0) continue;
     SceneCamera camera = importCamera(model, node.camera, report);
+    camera.film = films.at(static_cast<size_t>(node.camera));
     warnOfScale(placed, model, "camera", report);
     const std::string& cameraName = model.cameras[static_cast<size_t>(node.camera)].name;
     camera.name = !cameraName.empty()  ? cameraName

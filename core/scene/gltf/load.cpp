@@ -42,6 +42,8 @@ Scene import(const std::filesystem::path& file, const std::optional<std::string>
   const std::vector<std::string> variants = gltf::applyVariant(container.json, variant, report);
   const std::vector<int> priorities = gltf::readPriorities(container.json, report);
   const std::vector<std::string> closures = gltf::readClosures(container.json, report);
+  const std::optional<uint32_t> bounces = gltf::readBounces(container.json, report);
+  const std::vector<glm::uvec2> films = gltf::readFilms(container.json, report);
   gltf::Document document = gltf::loadDocument(std::move(container), file.parent_path(), report);
   gltf::decodeDraco(document.model, report);
   gltf::checkAccessors(document.model, report);
@@ -49,6 +51,7 @@ Scene import(const std::filesystem::path& file, const std::optional<std::string>
   Scene scene;
   scene.name = file.stem().string();
   scene.source = file;
+  scene.maxBounces = bounces;
   scene.contentHash = withNewExtensions(document.model, document.contentHash);
   scene.variants = variants;
   scene.variant = variant;
@@ -63,7 +66,7 @@ Scene import(const std::filesystem::path& file, const std::optional<std::string>
   const std::vector<gltf::PlacedNode> nodes = gltf::placeNodes(document.model, report);
   gltf::addMeshInstances(document.model, nodes, meshes, scene, report);
   gltf::applyClosures(closures, file, scene);  // after the default material, which has an index
-  gltf::addCameras(document.model, nodes, scene, report);
+  gltf::addCameras(document.model, nodes, films, scene, report);
   gltf::addLights(document.model, nodes, scene, report);
   meshes.checkUnusedMeshes();
   gltf::surveyAccessors(document.model, report);
@@ -80,6 +83,13 @@ Scene import(const std::filesystem::path& file, const std::optional<std::string>
 }
 
 }  // namespace
+
+std::optional<uint32_t> bouncesOfGltf(const std::filesystem::path& file) {
+  gltf::Report report(file.string());
+  gltf::Container container = gltf::readContainer(file, report);
+  gltf::validateDocument(container.json, report);
+  return gltf::readBounces(container.json, report);
+}
 
 Scene loadGltf(const std::filesystem::path& file, const std::optional<std::string>& variant) {
   gltf::Report report(file.string());

@@ -49,6 +49,9 @@ nlohmann::json kindWithoutTextures(const Scene& scene, size_t index);
 void addMaterials(const Scene& scene, Images& images, Output& output);
 // Nodes of instances, cameras and lights.
 void addNodes(const Scene& scene, Output& output);
+// Throws Error (badUsage) if one of the files is what the scene is made from, or if the scene file
+// of surroundings is there and holds other things.
+void requireFree(const Scene& scene, const Output& output);
 // Surroundings of the scene; nothing if it has none.
 void writeSurroundings(const Scene& scene, Output& output);
 

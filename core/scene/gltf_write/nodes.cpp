@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/field/stand_in.h"
 #include "core/scene/gltf_write/document.h"
 #include "core/scene/mitsuba/mesh_files.h"
 #include "core/scene/shapes/fine_meshes.h"
+#include "core/scene/shapes/shape_info.h"
 
 namespace restlab::gltf_write {
 namespace {
@@ -55,15 +57,36 @@ json attributesOf(const MeshGeometry& mesh, Output& output) {
   return attributes;
 }
 
+// Shapes of a kind that were written.
+struct Written {
+  size_t shapes = 0, triangles = 0;
+};
+
+// Kinds whose triangles are the surface itself.
+bool isMadeOfTriangles(const std::string& kind) {
+  return kind == "rectangle" || kind == "cube" || kind == "plane";
+}
+
+MeshGeometry meshOf(const ShapeGeometry& shape) {
+  MeshGeometry mesh = fineMesh(shape);
+  const std::string& kind = shape.info->name;
+  if (kind == "implicit" || kind == "sdf") addFieldNormals(fieldProgram(shape.words), mesh);
+  mitsuba::addTangents(mesh);  // a shape's bitangent is at the left of u
+  return mesh;
+}
+
 void addInstances(const Scene& scene, Output& output) {
   std::vector<json> primitives(scene.geometries.size());
   std::map<std::pair<uint32_t, uint32_t>, size_t> meshes;
+  std::map<std::string, Written> written;  // by kind
   for (const MeshInstance& instance : scene.instances) {
     const MeshGeometry& geometry = scene.geometries.at(instance.geometry);
     json& primitive = primitives.at(instance.geometry);
     if (primitive.is_null() && geometry.shape != nullptr) {
-      MeshGeometry fine = fineMesh(*geometry.shape);
-      mitsuba::addTangents(fine);  // a shape's bitangent is at the left of u
+      const MeshGeometry fine = meshOf(*geometry.shape);
+      Written& ofKind = written[geometry.shape->info->name];
+      ++ofKind.shapes;
+      ofKind.triangles += fine.triangles.size();
       primitive = {{"attributes", attributesOf(fine, output)},
                    {"indices", accessorOf(fine.triangles, "SCALAR", kUint, output)}};
     } else if (primitive.is_null()) {
@@ -81,6 +104,13 @@ void addInstances(const Scene& scene, Output& output) {
       node["matrix"] = matrixOf(instance.objectToWorld);
     output.add("nodes", node);
   }
+  for (const auto& [kind, count] : written)
+    if (!isMadeOfTriangles(kind))
+      output.notes.push_back(
+          fmt::format("{}: shapes of kind '{}', which glTF does not have, are written as triangles "
+                      "({} for {} of "
+                      "them)",
+                      output.file.string(), kind, count.triangles, count.shapes));
 }
 
 // The axes of a camera without scale. A mirrored one stands below a node that mirrors.
@@ -96,6 +126,8 @@ void addCamera(const SceneCamera& camera, json& roots, Output& output) {
     own["orthographic"] = {
         {"xmag", camera.xmag}, {"ymag", camera.ymag}, {"znear", 0.0}, {"zfar", 1e6}};
   }
+  if (camera.film.x > 0 && camera.film.y > 0)
+    own["extras"]["restlab"]["film"] = {camera.film.x, camera.film.y};
   if (camera.shift != glm::dvec2(0.0))
     output.notes.push_back(
         fmt::format("{}: the shift of camera '{}' is left out: glTF's films are "
@@ -157,6 +189,8 @@ void addNodes(const Scene& scene, Output& output) {
     output.extensions.insert("KHR_lights_punctual");
   }
   output.json["scenes"] = {{{"nodes", roots}}};
+  if (scene.maxBounces)
+    output.json["scenes"][0]["extras"]["restlab"]["max_bounces"] = *scene.maxBounces;
   output.json["scene"] = 0;
 }
 

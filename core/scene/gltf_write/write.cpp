@@ -1,9 +1,11 @@
 // writeGltf(): the parts of the document in order, images and surroundings beside it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/base/config.h"
 #include "core/base/error.h"
 #include "core/image/color.h"
 #include "core/image/image.h"
@@ -11,6 +13,7 @@
 #include "core/image/io/png.h"
 #include "core/scene/gltf_write/document.h"
 #include "core/scene/gltf_write/gltf_write.h"
+#include "core/scene/scene_file/scene_file.h"
 
 namespace restlab {
 namespace gltf_write {
@@ -50,6 +53,28 @@ std::optional<nlohmann::json> transformOf(const TextureUse& use) {
   if (shear > 1e-5 * std::max(sx, std::abs(sy))) return std::nullopt;
   return nlohmann::json{
       {"offset", {r0.z, r1.z}}, {"rotation", std::atan2(s, c)}, {"scale", {sx, sy}}};
+}
+
+bool hasSurroundings(const Scene& scene) {
+  return scene.environment || scene.background || scene.ambient != glm::vec3(0.0f);
+}
+
+std::filesystem::path besideOf(const Output& output, const char* extension) {
+  return output.file.parent_path() / (output.stem() + extension);
+}
+
+// Returns whether a scene file has nothing but what writeSurroundings() writes for that base.
+bool holdsSurroundingsAlone(const std::filesystem::path& file, const std::string& base) {
+  try {
+    const ConfigTable table = ConfigTable::parseFile(file);
+    const auto isOurs = [](const std::string& key) {
+      return key == "base" || key == "environment" || key == "background" || key == "light";
+    };
+    const std::vector<std::string> keys = table.keys();
+    return std::all_of(keys.begin(), keys.end(), isOurs) && table.getString("base", "") == base;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -104,8 +129,28 @@ nlohmann::json Images::info(uint32_t use, bool isSrgb) {
   return info;
 }
 
+void requireFree(const Scene& scene, const Output& output) {
+  std::vector<std::filesystem::path> all = {output.file, besideOf(output, ".bin")};
+  const bool isSurrounded = hasSurroundings(scene);
+  if (isSurrounded) all.push_back(besideOf(output, ".scene.toml"));
+  std::error_code error;
+  for (const std::filesystem::path& file : all)
+    for (const std::filesystem::path& input : filesOfScene(scene))
+      if (std::filesystem::equivalent(file, input, error))
+        failUsage(
+            fmt::format("{}: is a file that the scene is made from, and would be written "
+                        "beside {}; give that another name",
+                        file.string(), output.file.string()));
+  if (isSurrounded && std::filesystem::exists(all.back(), error) &&
+      !holdsSurroundingsAlone(all.back(), output.stem() + ".gltf"))
+    failUsage(
+        fmt::format("{0}: is there, and holds more than what surrounds {1}; give {1} another "
+                    "name, or move it away",
+                    all.back().string(), output.file.string()));
+}
+
 void writeSurroundings(const Scene& scene, Output& output) {
-  if (!scene.environment && !scene.background && scene.ambient == glm::vec3(0.0f)) return;
+  if (!hasSurroundings(scene)) return;
   const std::string stem = output.stem();
   const std::filesystem::path folder = output.file.parent_path();
   std::string text = fmt::format("base = \"{}.gltf\"\n", stem);
@@ -126,7 +171,7 @@ void writeSurroundings(const Scene& scene, Output& output) {
     text += fmt::format("[background]\nradiance = {}\n", triple(*scene.background));
   if (scene.ambient != glm::vec3(0.0f))
     text += fmt::format("[[light]]\nkind = \"ambient\"\nradiance = {}\n", triple(scene.ambient));
-  writeTextFile(folder / (stem + ".scene.toml"), text);
+  writeTextFile(besideOf(output, ".scene.toml"), text);
   output.notes.push_back(
       fmt::format("{}: what surrounds the scene is in {}.scene.toml, which begins "
                   "with this file",
@@ -138,12 +183,13 @@ void writeSurroundings(const Scene& scene, Output& output) {
 std::vector<std::string> writeGltf(const Scene& scene, const std::filesystem::path& file) {
   gltf_write::Output output;
   output.file = file;
+  gltf_write::requireFree(scene, output);
   gltf_write::Images images(scene, output);
   gltf_write::addMaterials(scene, images, output);
   gltf_write::addNodes(scene, output);
   gltf_write::writeSurroundings(scene, output);
   if (!output.extensions.empty()) output.json["extensionsUsed"] = output.extensions;
-  const std::filesystem::path binary = file.parent_path() / (output.stem() + ".bin");
+  const std::filesystem::path binary = gltf_write::besideOf(output, ".bin");
   if (!output.bytes.empty()) {
     output.json["buffers"] = {{{"uri", gltf_write::escaped(output.stem() + ".bin")},
                                {"byteLength", output.bytes.size()}}};

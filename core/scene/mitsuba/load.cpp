@@ -112,7 +112,17 @@ Scene read(const fs::path& file, const std::string& text, Report& report) {
   Textures textures(context);
   Bsdfs bsdfs(context, textures, file.parent_path());
   Shapes shapes(context, textures, bsdfs);
-  for (const Element& child : document.scene().children) readChild(child, context, shapes);
+  const Element* integrator = nullptr;
+  for (const Element& child : document.scene().children) {
+    if (child.tag == "integrator") {
+      if (integrator != nullptr)
+        report.fail(child.place, fmt::format("a second <integrator>, the first is at {}; one of "
+                                             "them expected",
+                                             integrator->place));
+      integrator = &child;
+    }
+    readChild(child, context, shapes);
+  }
   addDefaultCamera(scene, file, report);
   if (scene.instances.empty()) report.warn("empty scene", file.string(), "holds no shape");
   for (const SceneMaterial& material : scene.materials)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/crease.h"
 #include "core/scene/mitsuba/files.h"
@@ -33,18 +34,29 @@ MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path&
   return mesh;
 }
 
+namespace {
+
+void smooth(const ConfigTable& table, double degrees, MeshGeometry& mesh) {
+  static thread_local MemoryGuard memory;  // for all that a thread reads
+  constexpr uint64_t kBytes = 400;         // of a triangle: corners, edges, new vertices
+  memory.take(table.place("normals"), kBytes * mesh.triangles.size());
+  smoothNormals(mesh, degrees);
+}
+
+}  // namespace
+
 void readNormals(const ConfigTable& table, MeshGeometry& mesh) {
   if (!table.has("normals")) return;
   const std::vector<std::string> texts = table.getTexts("normals");
   const bool isWord =
       !texts.empty() && !texts[0].empty() && (texts[0].front() == '"' || texts[0].front() == '\'');
   if (!isWord) {
-    smoothNormals(mesh, table.getNumber("normals", 180.0, 0.0, 180.0));
+    smooth(table, table.getNumber("normals", 180.0, 0.0, 180.0), mesh);
     return;
   }
   const std::string word = table.getChoice("normals", "file", {"file", "flat", "smooth"});
   if (word == "flat") flattenNormals(mesh);
-  if (word == "smooth") smoothNormals(mesh, 180.0);
+  if (word == "smooth") smooth(table, 180.0, mesh);
 }
 
 }  // namespace restlab

@@ -384,6 +384,40 @@ std::pair<std::string, std::string> splitSceneSettings(const std::string& name) 
   return {name.substr(0, question), name.substr(question + 1)};
 }
 
+std::string settingsOfScene(const Scene& scene) {
+  if (scene.source.empty()) return "";
+  std::string stem = scene.source.filename().string();
+  if (isSceneFile(scene.source))
+    stem.resize(stem.size() - std::string(kExtension).size());
+  else if (scene.variant)
+    return "variant=" + *scene.variant;
+  else
+    stem = scene.source.stem().string();
+  // A file's own name may have a '?'.
+  const bool hasSettings = scene.name.starts_with(stem + "?");
+  return hasSettings ? scene.name.substr(stem.size() + 1) : "";
+}
+
+std::vector<fs::path> filesOfScene(const Scene& scene) {
+  std::vector<fs::path> files;
+  if (scene.source.empty()) return files;
+  files.push_back(scene.source);
+  while (isSceneFile(files.back()) && files.size() <= size_t(kMostBases)) {
+    std::string base;
+    try {
+      base = ConfigTable::parseFile(files.back()).getString("base", "");
+    } catch (const Error&) {
+      break;
+    }
+    if (base.empty() || isBuiltinScene(base)) break;
+    const fs::path next = files.back().parent_path() / splitSceneSettings(base).first;
+    std::error_code error;
+    if (!fs::is_regular_file(next, error)) break;
+    files.push_back(next);
+  }
+  return files;
+}
+
 namespace {
 
 // Errors of a configuration are here those of a scene.
@@ -392,7 +426,8 @@ auto asScene(const Read& read) {
   try {
     return read();
   } catch (const Error& error) {
-    throw Error(ExitCode::badInput, error.what());
+    const bool isTooLarge = error.code() == ExitCode::deviceUnavailable;
+    throw Error(isTooLarge ? error.code() : ExitCode::badInput, error.what());
   }
 }
 

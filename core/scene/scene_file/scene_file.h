@@ -25,6 +25,15 @@ Scene loadSceneFile(const std::filesystem::path& file, const std::string& settin
 // Names of other scenes stay whole.
 std::pair<std::string, std::string> splitSceneSettings(const std::string& name);
 
+// Returns what follows the '?' behind the file of a scene that was loaded: settings, definitions,
+// the variant; "" for a built-in scene. Does not take Scene::name, which has no extension, for the
+// name of a built-in scene.
+std::string settingsOfScene(const Scene& scene);
+
+// Lists the files that a scene was made from: its own and, where that is a scene file, those that
+// it begins with. Files that cannot be read end the list.
+std::vector<std::filesystem::path> filesOfScene(const Scene& scene);
+
 // A kind of material, as [[material]] and the list of the program name it: a closure, or one that
 // the lobes of glTF stand for.
 struct MaterialKind {

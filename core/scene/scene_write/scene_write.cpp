@@ -19,10 +19,16 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+// The text with U+FFFD in the place of bytes that are not UTF-8.
+std::string utf8Of(const std::string& text) {
+  const std::string whole = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json::parse(whole).get<std::string>();
+}
+
 // A basic string of TOML.
 std::string quoted(const std::string& text) {
   std::string all = "\"";
-  for (const char c : text) {
+  for (const char c : utf8Of(text)) {
     if (c == '"' || c == '\\') all += '\\';
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       all += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
@@ -136,6 +142,10 @@ class SceneFileWriter {
 
   SceneFileText write(const std::string& base) {
     SceneFileText file;
+    if (utf8Of(base) != base)
+      failInput(utf8Of(base) +
+                ": is not UTF-8, so that no scene file can begin with it; another "
+                "name of the file or its folder expected");
     file.text = "base = " + quoted(base) + "\n";
     // Parts of mixtures stand before the mixtures.
     const std::vector<Namesakes> all = names();
@@ -213,8 +223,10 @@ class SceneFileWriter {
 
   static std::string whyNot(const SceneMaterial& source) {
     if (source.name.empty()) return "A material without a name, which [[assign]] cannot call.";
-    if (source.name.find_first_of("*?") != std::string::npos)
-      return "A name with * or ?, which [[assign]] takes for other names, too.";
+    if (source.name.find_first_of("*?[\\") != std::string::npos)
+      return "A name with *, ?, [ or \\, which [[assign]] takes for a pattern.";
+    if (utf8Of(source.name) != source.name)
+      return "A name that is not UTF-8, which no scene file holds; \uFFFD stands for its bytes.";
     if (hasTable(source)) return "A table, whose file the base names.";
     return "";
   }
@@ -292,8 +304,7 @@ SceneFileText sceneFileOf(const Scene& scene, const std::string& base) {
 
 std::string baseNameOf(const Scene& scene, const fs::path& folder) {
   if (scene.source.empty()) return scene.name;
-  std::string settings = splitSceneSettings(scene.name).second;
-  if (scene.variant) settings = "variant=" + *scene.variant;
+  const std::string settings = settingsOfScene(scene);
   const fs::path from = fs::absolute(folder.empty() ? fs::path(".") : folder).lexically_normal();
   const fs::path file = fs::absolute(scene.source).lexically_normal();
   const fs::path relative = file.lexically_relative(from);

@@ -28,6 +28,15 @@ std::shared_ptr<const ClosedSurface> preparedSurface(const std::vector<uint32_t>
   return surface;
 }
 
+MeshGeometry standInOf(const ShapeGeometry& shape) {
+  const BezierGrid grid = surfaceOfWords(shape.words);
+  // About 8000 triangles, and at least one cell a piece.
+  const size_t cells =
+      std::clamp<size_t>(size_t(std::sqrt(4000.0 / double(grid.pieces.size()))), 1, 32);
+  return tessellate(
+      grid, {std::vector<size_t>(grid.columns(), cells), std::vector<size_t>(grid.rows(), cells)});
+}
+
 }  // namespace
 
 ShapeInfo nurbsShape() {
@@ -36,6 +45,10 @@ ShapeInfo nurbsShape() {
   info.read = [](const ConfigTable& table, ShapeGeometry& shape) {
     const NurbsSurface surface = readNurbs(table);
     shape.words = atPlace(table.place("points"), [&] { return surfaceWords(bezierGrid(surface)); });
+    if (standInOf(shape).triangles.empty())
+      table.fail("points",
+                 "the surface has no area in single precision; put its points near 0 and move it "
+                 "with 'translate'");
   };
   info.readMesh = [](const ConfigTable& table, const ShapePlace& place) {
     std::optional<MeshGeometry> mesh;
@@ -60,14 +73,7 @@ ShapeInfo nurbsShape() {
     return preparedSurface(shape.words)->isInside(posL);
   };
   info.box = [](const ShapeGeometry& shape) { return boxOfWords(shape.words); };
-  info.standIn = [](const ShapeGeometry& shape) {
-    const BezierGrid grid = surfaceOfWords(shape.words);
-    // About 8000 triangles, and at least one cell a piece.
-    const size_t cells =
-        std::clamp<size_t>(size_t(std::sqrt(4000.0 / double(grid.pieces.size()))), 1, 32);
-    return tessellate(grid, {std::vector<size_t>(grid.columns(), cells),
-                             std::vector<size_t>(grid.rows(), cells)});
-  };
+  info.standIn = standInOf;
   return info;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/config.h"
+#include "core/base/memory.h"
 #include "core/scene/splines/read_nurbs.h"
 
 namespace restlab {
@@ -77,6 +78,10 @@ MeshGeometry readMeshOfSurface(const ConfigTable& table, const ShapePlace& place
     table.fail(isGiven ? "chord_error" : "",
                fmt::format("the surface takes {} triangles, but at most {}: a larger 'chord_error'",
                            cells.triangles(), kMostTriangles));
+  // Many small surfaces are summed: one guard for all that a thread reads.
+  static thread_local MemoryGuard memory;
+  constexpr uint64_t kBytes = 64;  // of a triangle, with its share of vertices and of copies
+  memory.take(table.place(""), kBytes * cells.triangles());
   return tessellate(grid, cells);
 }
 

@@ -139,6 +139,12 @@ std::optional<SplineFault> faultOf(const NurbsSurface& s) {
       return SplineFault{"weights", fmt::format("number {} of 'weights' is {}, but must be above 0",
                                                 i + 1, s.weights[i])};
   }
+  const auto [least, most] = std::minmax_element(s.weights.begin(), s.weights.end());
+  constexpr double kMostRatio = 1e6;
+  if (*most > kMostRatio * *least)
+    return SplineFault{"weights", fmt::format("the largest of 'weights' is {:.3g} times the least, "
+                                              "but must be at most {:g} times",
+                                              *most / *least, kMostRatio)};
   return std::nullopt;
 }
 

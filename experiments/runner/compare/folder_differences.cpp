@@ -34,8 +34,9 @@ const std::set<std::string> kNoSettings = {
 
 // Metadata that identify the picture of a reference.
 std::vector<std::string> pictureKeys() {
-  std::vector<std::string> keys = {"scene_hash", "camera_to_world", "camera_yfov",
-                                   "width",      "height",          "component"};
+  std::vector<std::string> keys = {"scene_hash",   "camera_to_world", "camera_yfov",
+                                   "camera_shift", "camera_mirrored", "width",
+                                   "height",       "component"};
   for (const auto& setting : transportTexts({}, true)) keys.push_back(setting.first);
   return keys;
 }
@@ -165,8 +166,8 @@ std::map<std::string, Words> blockWords(const ResultsFolder& results, const Plan
       own["seeds"] = numbersText(seeds[name]);
     }
     for (const std::string& word : pictureKeys()) {
-      const auto found = reference.metadata.find(word);
-      if (found != reference.metadata.end()) own.emplace(word, found->second);
+      const std::optional<std::string> found = pictureWord(reference.metadata, word);
+      if (found) own.emplace(word, *found);
     }
   }
   return words;

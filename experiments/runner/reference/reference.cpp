@@ -123,6 +123,15 @@ void requireUsable(const std::string& file, const Reference& reference) {
   }
 }
 
+std::optional<std::string> pictureWord(const std::map<std::string, std::string>& metadata,
+                                       const std::string& key) {
+  if (const auto found = metadata.find(key); found != metadata.end()) return found->second;
+  if (!metadata.contains("camera_to_world")) return {};
+  if (key == "camera_shift") return "0 0";
+  if (key == "camera_mirrored") return "false";
+  return {};
+}
+
 void requireSameConfiguration(const std::string& file,
                               const std::map<std::string, std::string>& reference,
                               const std::map<std::string, std::string>& wanted) {
@@ -131,14 +140,14 @@ void requireSameConfiguration(const std::string& file,
     return;
   }
   std::vector<std::string> items = {
-      "scene_hash", "camera_index", "camera_to_world", "camera_yfov",
-      "width",      "height",       "component",       "reference_sources"};
+      "scene_hash",      "camera_index", "camera_to_world", "camera_yfov", "camera_shift",
+      "camera_mirrored", "width",        "height",          "component",   "reference_sources"};
   for (const auto& setting : transportTexts({}, true)) items.push_back(setting.first);
   for (const std::string& item : items) {
-    const auto have = reference.find(item), want = wanted.find(item);
-    if (have == reference.end() || want == wanted.end() || have->second == want->second) continue;
+    const auto have = pictureWord(reference, item), want = pictureWord(wanted, item);
+    if (!have || !want || *have == *want) continue;
     failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,
-                          item, have->second, want->second));
+                          item, *have, *want));
   }
 }
 

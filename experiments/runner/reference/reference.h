@@ -103,6 +103,11 @@ bool meetsTarget(const Reference& reference, const ReferenceTarget& target);
 // restlab image of another kind.
 void requireUsable(const std::string& file, const Reference& reference);
 
+// Returns a word of an image's metadata. A camera without words for its shift and mirroring has
+// none of them.
+std::optional<std::string> pictureWord(const std::map<std::string, std::string>& metadata,
+                                       const std::string& key);
+
 // Throws Error (badInput) that names the first item in which a reference given as a file disagrees
 // with `wanted`. A file without restlab's metadata passes with a warning.
 void requireSameConfiguration(const std::string& file,

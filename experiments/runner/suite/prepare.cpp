@@ -137,7 +137,7 @@ PreparedScene prepareScene(const SceneRequest& request, std::optional<Environmen
 
 PreparedScene withSettings(const PreparedScene& loaded, const std::string& settings) {
   const Scene& before = loaded.scene->source();
-  const std::string own = splitSceneSettings(before.name).second;
+  const std::string own = settingsOfScene(before);
   Scene scene = loadSceneFile(before.source, own.empty() ? settings : own + "&" + settings);
   scene.environment = before.environment;
   scene.mainCamera = loaded.camera;
@@ -209,10 +209,7 @@ std::string hexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
 std::map<std::string, std::string> describe(const PreparedScene& prepared,
                                             const SessionConfig& config) {
   const Scene& source = prepared.scene->source();
-  const bool isNamed = isSceneFile(source.source) || isMitsubaFile(source.source);
-  const std::string settings = isNamed          ? splitSceneSettings(source.name).second
-                               : source.variant ? "variant=" + *source.variant
-                                                : "";
+  const std::string settings = settingsOfScene(source);
   std::map<std::string, std::string> words = {
       {"program", "restlab"},
       {"scene", source.name},
@@ -254,6 +251,8 @@ void describeCamera(const SceneCamera& camera, std::map<std::string, std::string
   words["camera"] = camera.name;
   words["camera_index"] = "none";
   words["camera_to_world"] = matrix;
+  // Erase what an earlier camera left.
+  for (const char* word : {"camera_mirrored", "camera_shift"}) words.erase(word);
   if (camera.isMirrored) words["camera_mirrored"] = "true";
   if (camera.shift != glm::dvec2(0.0))
     words["camera_shift"] = fmt::format("{:.9g} {:.9g}", camera.shift.x, camera.shift.y);

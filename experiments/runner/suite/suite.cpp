@@ -225,36 +225,34 @@ void Suite::chooseDevice(SessionConfig& config) const {
 
 namespace {
 
-// Table of a suite.toml in results: bounces that scenes had of their own files.
+// Table of a suite.toml in results: bounces of the scenes' own files, kNoBounces where they have
+// none. Scenes that are not in it have those of their files.
 constexpr const char* kSceneBounces = "scene_bounces";
 
 // Bounces that the scene's file suggests. Errors of the file are found when it is loaded.
-std::optional<uint32_t> suggestionOf(const SceneRequest& request) {
+int64_t suggestionOf(const SceneRequest& request) {
   const std::filesystem::path beside = std::filesystem::path(request.suiteFolder) / request.scene;
   for (const std::string& name : {request.scene, beside.string()}) {
     try {
-      if (const auto bounces = suggestedBounces(name)) return bounces;
+      if (const auto bounces = suggestedBounces(name)) return int64_t(*bounces);
     } catch (const Error&) {
     }
   }
-  return {};
+  return kNoBounces;
 }
 
 // Gives scenes the bounces of their files where the suite has none.
 void takeBounces(const ConfigTable& root, const ConfigTable& settings, Suite& suite) {
-  const bool isKept = root.has(kSceneBounces);
   const ConfigTable kept = root.getTable(kSceneBounces);
   for (SuiteScene& scene : suite.scenes) {
-    std::optional<uint32_t> bounces;
-    if (isKept && kept.has(scene.name))
-      bounces = uint32_t(kept.getInteger(scene.name, 0, 0, 1024));
-    else if (!isKept)
-      bounces = suggestionOf(scene.request);
-    if (!bounces || settings.has("max_bounces") || scene.transport.contains("max_bounces"))
-      continue;
-    scene.transport["max_bounces"] = int64_t(*bounces);
+    const int64_t ofTable = kept.getInteger(scene.name, kNoBounces, kNoBounces, 1024);
+    if (settings.has("max_bounces") || scene.transport.contains("max_bounces")) continue;
+    if (isBuiltinScene(scene.request.scene)) continue;
+    const int64_t bounces = kept.has(scene.name) ? ofTable : suggestionOf(scene.request);
     scene.suggestedBounces = bounces;
+    if (bounces != kNoBounces) scene.transport["max_bounces"] = bounces;
   }
+  kept.finish();
 }
 
 // Reads one point of the sweep over settings. `root`: with all overrides and this point's values.

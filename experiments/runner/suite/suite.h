@@ -15,6 +15,8 @@
 
 namespace restlab {
 
+constexpr int64_t kNoBounces = -1;
+
 struct SuiteScene {
   SceneRequest request;
   std::string name;                // in tables and file names
@@ -24,8 +26,9 @@ struct SuiteScene {
   bool optional = false;           // skipped with a message if its files are absent
   Truth truth = Truth::rendered;
   // Settings of this scene instead of the suite's.
-  ParameterMap transport;                    // of transportSchema()
-  std::optional<uint32_t> suggestedBounces;  // that `transport` has of the scene's file
+  ParameterMap transport;  // of transportSchema()
+  // Bounces that the scene's file has, kNoBounces if none; nullopt: the file is not asked.
+  std::optional<int64_t> suggestedBounces;
   std::optional<uint32_t> warmupFrames, runs;
   std::optional<std::string> cameraPath;  // name of the path
   // Number of the [[scene]] whose scenes are a sweep, from 1; 0: a [[scene]] of one scene.
