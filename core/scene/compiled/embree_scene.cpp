@@ -95,7 +95,6 @@ void EmbreeScene::build(const EmbreeInput& in) {
     const rl::Geometry& g = in.geometries[inst.geometry];
     RTCGeometry geometry = nullptr;
     if (g.shape != rl::RL_SHAPE_TRIANGLES) {
-      if (g.triangleCount == 0) continue;  // no kernel knows of it: feature_scan.cpp skips it
       geometry = newShape(device_, in.shapeBoxes[i]);
     } else if (g.triangleCount == 0) {
       continue;
