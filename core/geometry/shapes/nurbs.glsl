@@ -275,7 +275,8 @@ RL_FN bool nurbsIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit)
   bool found = false;
   uint node = 1u;
   uint waiting = 0u;
-  for (;;) {
+  bool goesOn = true;
+  while (goesOn) {
     bool isDone = true;  // with this node and all below
     if (nurbsEnter(nodes + 2u * node, ray.origin, inverse, ray.tMin, left.tMax) < 3.0e38f) {
       uint piece = RL_SCENE_UVEC4(gScene.shapeWords, nodes + 2u * node).w;
@@ -295,15 +296,19 @@ RL_FN bool nurbsIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit)
         found = true;
       }
     }
-    if (!isDone) continue;
-    if (waiting == 0u) return found;
-    while ((waiting & 1u) == 0u) {
-      waiting = waiting / 2u;
-      node = node / 2u;
+    if (isDone) {
+      goesOn = waiting != 0u;
+      while (waiting != 0u && (waiting & 1u) == 0u) {
+        waiting = waiting / 2u;
+        node = node / 2u;
+      }
+      if (goesOn) {
+        waiting = waiting - 1u;
+        node = (node / 2u) * 2u + 1u - (node & 1u);
+      }
     }
-    waiting = waiting - 1u;
-    node = (node / 2u) * 2u + 1u - (node & 1u);
   }
+  return found;
 }
 
 RL_FN ShapePoint nurbsPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
