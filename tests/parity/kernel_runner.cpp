@@ -65,7 +65,8 @@ GlslCounters runOnDevice(TestDevice& device, const std::string& header, const st
                          size_t paramBytes) {
   VulkanMemory& memory = *device.memory;
   VkPipeline pipeline = device.kernels->pipeline(
-      bruteForceKernel(header, file), file, rl::RL_FEATURE_ALL & ~rl::RL_FEATURE_CLOSURES,
+      bruteForceKernel(header, file), file,
+      rl::RL_FEATURE_ALL & ~(rl::RL_FEATURE_CLOSURES | rl::RL_FEATURE_SHAPES),
       readBelow({RESTLAB_SOURCE_DIR, RESTLAB_GENERATED_DIR}), device.report);
   std::vector<GpuBuffer> inputs;
   const auto upload = [&](const void* data, size_t bytes) {
