@@ -117,8 +117,13 @@ RL_FN_OUTLINE bool fieldIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(H
   vec2 high = fieldSlope(f, fieldPlace(fromBox.origin, ray.dir, t.y), ray.dir);
   t = fieldRefine(f, fromBox.origin, ray.dir, t, low, high);
   float tHit = tBase + t.y;
-  // Not before the change of sign: a ray that goes on from there begins behind it.
-  if (tHit - tBase < t.y) tHit = uintBitsToFloat(floatBitsToUint(tHit) + 1u);
+  // A ray that goes on begins at tHit - tBase: there, too, the sign must be that behind the hit.
+  for (uint i = 0u; i < 8u; i = i + 1u) {
+    float s = tHit - tBase;
+    float value = fieldSlope(f, fieldPlace(fromBox.origin, ray.dir, s), ray.dir).x;
+    if (s >= t.y && (value < 0.0f) == (high.x < 0.0f)) break;
+    tHit = uintBitsToFloat(floatBitsToUint(tHit) + 1u);
+  }
   if (!(tHit > ray.tMin) || !(tHit < ray.tMax)) return false;
   vec3 at = fieldPlace(fromBox.origin, ray.dir, t.y);
   vec2 end = fieldSlope(f, at, ray.dir);
