@@ -7,7 +7,7 @@ RL_FN vec2 fieldWiden(RL_IN(vec2) v) {
   return vec2(max(v.x - slack.x, -RL_FIELD_STEEPEST), min(v.y + slack.y, RL_FIELD_STEEPEST));
 }
 
-// Of a division or a root: devices round them to 2.5 units in the last place and more.
+// Bounds of a division or a root: devices round them to 2.5 units in the last place and more.
 RL_FN vec2 fieldWidenCoarsely(RL_IN(vec2) v) {
   return fieldWiden(v - abs(v) * vec2(1.0e-6f, -1.0e-6f));
 }
