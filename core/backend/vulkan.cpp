@@ -149,13 +149,6 @@ class VulkanBackend final : public Backend {
 
   void prepare(const PassRun& pass, StartupReport& report) override {
     placeBuffers();
-    if ((pass.mask & rl::RL_FEATURE_SHAPE_NURBS) != 0 && !readsTexels(pass)) {
-      throw Error(
-          ExitCode::deviceUnavailable,
-          fmt::format("kernel '{}' would read exact NURBS surfaces by addresses, which fails "
-                      "on lavapipe; the CPU or way = \"mesh\" would be right",
-                      pass.kernel));
-    }
     report.readsTexels = report.readsTexels || readsTexels(pass);
     pipelineOf(pass, report);
   }

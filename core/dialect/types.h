@@ -366,7 +366,8 @@ const uint RL_HEALTH_NEW_HISTORY = 9u;        // pixels for whose surface a deno
 const uint RL_HEALTH_FIREFLIES = 10u;         // pixels that a denoiser darkened to match neighbours
 const uint RL_HEALTH_LONG_WALKS = 11u;        // paths that RL_MOST_STRETCHES in media ended
 const uint RL_HEALTH_SEGMENTS = 12u;          // rays that RL_FIELD_SEGMENTS stopped on a field
-const uint RL_HEALTH_COUNT = 13u;
+const uint RL_HEALTH_LOOPS_CUT = 13u;         // pixels whose loops the driver may have ended
+const uint RL_HEALTH_COUNT = 14u;
 
 RL_NAMESPACE_END
 

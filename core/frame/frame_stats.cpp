@@ -6,7 +6,7 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::names() {
   static const std::array<const char*, rl::RL_HEALTH_COUNT> names = {
       "nonfinite", "rejected_jacobian", "capped_confidence", "delta_lobes",   "unreusable_pixels",
       "negative",  "dropped_weights",   "cache_full",        "light_changed", "new_history",
-      "fireflies", "long_walks",        "ray_segments"};
+      "fireflies", "long_walks",        "ray_segments",      "loops_cut"};
   return names;
 }
 
@@ -28,7 +28,10 @@ const std::array<const char*, rl::RL_HEALTH_COUNT>& Health::meanings() {
       "paths that were ended after 1023 collisions inside a body, with more than 1e-4 of their "
       "throughput left: that light is missing",
       "rays that met 384 segments of an implicit surface and took the rest as one: they may miss a "
-      "place where it is crossed twice"};
+      "place where it is crossed twice",
+      "pixels of passes on lavapipe whose loops took 65535 turns or more, by groups of 8: the "
+      "driver "
+      "ends all loops there, and what they would have found is missing"};
   return meanings;
 }
 

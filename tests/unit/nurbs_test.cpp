@@ -12,6 +12,7 @@
 #include "core/scene/splines/surface_words.h"
 #include "tests/unit/dialect_context.h"
 #include "tests/unit/random_inputs.h"
+#include "tests/unit/shape_cases.h"
 
 namespace restlab::unit {
 namespace {
@@ -19,20 +20,6 @@ namespace {
 ShapeGeometry surfaceShape(const NurbsSurface& surface) {
   return {findShape("nurbs"), {}, surfaceWords(bezierGrid(surface))};
 }
-
-// A context with one shape in its own space.
-struct LocalSurface {
-  explicit LocalSurface(const ShapeGeometry& of) : words(shapeWords(of)) {
-    shape.kind = of.info->kind;
-    shape.firstWord = 0;
-    d.scene.shapeWords.data = words.data();
-  }
-  std::vector<glm::uvec4> words;
-  rl::Shape shape{};
-  Dialect<> d;
-};
-
-rl::Ray lineOf(const glm::vec3& origin, const glm::vec3& dir) { return {origin, 0.0f, dir, 3e38f}; }
 
 // A sheet with random heights and weights, of any degrees and unequal knots.
 NurbsSurface randomSheet(Inputs& inputs, int degreeU, int degreeV, int countU, int countV) {
@@ -54,7 +41,7 @@ NurbsSurface randomSheet(Inputs& inputs, int degreeU, int degreeV, int countU, i
 }
 
 TEST(NurbsShape, ItsSphereIsTheAnalyticSphere) {
-  LocalSurface nurbs(surfaceShape(sphereAsNurbs())), sphere({findShape("sphere"), {}, {}});
+  LocalShape nurbs(surfaceShape(sphereAsNurbs())), sphere({findShape("sphere"), {}, {}});
   Inputs inputs(1);
   int compared = 0;
   for (int i = 0; i < 200'000; ++i) {
@@ -64,7 +51,7 @@ TEST(NurbsShape, ItsSphereIsTheAnalyticSphere) {
       target = glm::vec3(0.0f, 0.0f, inputs.below(2) == 0 ? 1.0f : -1.0f) +
                inputs.scale(1e-7f, 0.1f) * inputs.direction();
     const float away = inputs.below(3) == 0 ? 0.0f : inputs.scale(0.1f, 100.0f);
-    const rl::Ray ray = lineOf(target - dir * away, dir * inputs.scale(1e-3f, 1e3f));
+    const rl::Ray ray = rayOf(target - dir * away, dir * inputs.scale(1e-3f, 1e3f));
     rl::Hit a{}, b{};
     const bool isA = nurbs.d->shapeIntersect(nurbs.shape, ray, a);
     const bool isB = sphere.d->shapeIntersect(sphere.shape, ray, b);
@@ -96,7 +83,7 @@ TEST(NurbsShape, ItIsTheSurfaceOfTheLibrary) {
   Inputs inputs(2);
   for (const auto& [p, q] : {std::pair(1, 1), {1, 3}, {3, 3}, {2, 5}, {7, 7}, {4, 1}}) {
     const NurbsSurface s = randomSheet(inputs, p, q, p + 3, q + 2);
-    LocalSurface local(surfaceShape(s));
+    LocalShape local(surfaceShape(s));
     for (int i = 0; i < 3000; ++i) {
       const glm::vec2 at = inputs.square();
       const rl::ShapePoint point = local.d->shapePoint(local.shape, {0, 0, at});
@@ -119,7 +106,7 @@ TEST(NurbsShape, NoRaySlipsThroughASheet) {
   for (int sheet = 0; sheet < 12; ++sheet) {
     const int p = 1 + int(inputs.below(5)), q = 1 + int(inputs.below(5));
     const NurbsSurface s = randomSheet(inputs, p, q, p + 1 + int(inputs.below(4)), q + 2);
-    LocalSurface local(surfaceShape(s));
+    LocalShape local(surfaceShape(s));
     const glm::uvec4 head = local.words[0];
     for (int i = 0; i < 40'000; ++i) {
       // Towards a place on the surface: any, on a line of the grid, or at a corner.
@@ -131,7 +118,7 @@ TEST(NurbsShape, NoRaySlipsThroughASheet) {
       const glm::vec3 dir = inputs.direction();
       rl::Hit hit{};
       ++rays;
-      missed += !local.d->shapeIntersect(local.shape, lineOf(point.posL - dir * away, dir), hit);
+      missed += !local.d->shapeIntersect(local.shape, rayOf(point.posL - dir * away, dir), hit);
     }
   }
   EXPECT_EQ(missed, 0u) << "of " << rays;
@@ -169,7 +156,7 @@ TEST(NurbsShape, NoPathLeavesASphere) {
       }
       for (int bounce = 0; bounce < 10; ++bounce) {
         rl::Hit hit{};
-        d->traceRay(lineOf(at, dir), rl::RL_RAY_PATH, 0, hit);
+        d->traceRay(rayOf(at, dir), rl::RL_RAY_PATH, 0, hit);
         ++rays;
         if (hit.instance == rl::RL_INVALID) {
           ++escaped;
@@ -189,41 +176,6 @@ TEST(NurbsShape, NoPathLeavesASphere) {
   }
   EXPECT_GT(rays, 900'000u);
   EXPECT_EQ(escaped, 0u) << "of " << rays;
-}
-
-// Rays that leave to the outside of a sphere, also along its surface, do not meet it again.
-TEST(NurbsShape, ASphereDoesNotShadowItself) {
-  Inputs inputs(5);
-  uint64_t left = 0, met = 0;
-  for (int exponent = -13; exponent <= 17; exponent += 5) {
-    const double size = std::exp2(exponent);
-    glm::dmat4 m = glm::translate(glm::dmat4(1.0), 9.0 * size * glm::dvec3(0.48, -0.6, 0.64));
-    m = glm::scale(m, size * glm::dvec3(1.0, 0.6, -0.7));
-    const auto scene = placedSurface(sphereAsNurbs(), m);
-    Dialect<> d(scene);
-    const glm::vec3 centre(glm::dvec3(m[3]) - scene->origin());
-    for (int i = 0; i < 20'000; ++i) {
-      const glm::vec3 dir = inputs.direction();
-      rl::Hit hit{};
-      d->traceRay(lineOf(centre - dir * float(size) * inputs.scale(2.0f, 50.0f), dir),
-                  rl::RL_RAY_PATH, 0, hit);
-      ASSERT_NE(hit.instance, rl::RL_INVALID);
-      const rl::Surface s = d->surfaceLoad(hit, dir);
-      ASSERT_EQ(s.isFront, 1u);
-      const glm::vec3 flat = inputs.direction();
-      const float lift = inputs.below(2) == 0 ? 1.0f : inputs.scale(1e-6f, 1.0f);
-      const glm::vec3 out = glm::normalize(
-          flat - s.nGeoW * (glm::dot(s.nGeoW, flat) - lift * std::abs(glm::dot(s.nGeoW, flat))));
-      if (glm::dot(s.nGeoW, out) < 0.0f) continue;
-      rl::Hit next{};
-      d->traceRay(lineOf(d->surfaceOffset(s.posW, s.nGeoW, s.posError, out), out), rl::RL_RAY_PATH,
-                  0, next);
-      ++left;
-      met += next.instance != rl::RL_INVALID ? 1 : 0;
-    }
-  }
-  EXPECT_GT(left, 100'000u);
-  EXPECT_EQ(met, 0u) << "of " << left;
 }
 
 TEST(NurbsShape, InsideIsWhereTheSphereIs) {

@@ -71,7 +71,8 @@ inline const ShapeCase& shapeNamed(const std::string& name) {
 
 // A context with the parameters of one shape, in its own space.
 struct LocalShape {
-  explicit LocalShape(const ShapeCase& of) : words(shapeWords(of.shape)) {
+  explicit LocalShape(const ShapeCase& of) : LocalShape(of.shape) {}
+  explicit LocalShape(const ShapeGeometry& of) : words(shapeWords(of)) {
     shape.kind = of.info->kind;
     shape.firstWord = 0;
     d.scene.shapeWords.data = words.data();

@@ -29,27 +29,6 @@ double checked(double value) {
   return value;
 }
 
-double applied(uint32_t kind, double a) {
-  switch (kind) {
-    case rl::RL_FIELD_RECIPROCAL:
-      return 1.0 / a;
-    case rl::RL_FIELD_SQUARE:
-      return a * a;
-    case rl::RL_FIELD_SQRT:
-      return std::sqrt(a);
-    case rl::RL_FIELD_ABS:
-      return std::abs(a);
-    case rl::RL_FIELD_SIN:
-      return std::sin(a);
-    case rl::RL_FIELD_COS:
-      return std::cos(a);
-    case rl::RL_FIELD_EXP:
-      return std::exp(a);
-    default:
-      return std::abs(a - 2.0 * std::floor(a * 0.5 + 0.5));
-  }
-}
-
 }  // namespace
 
 FieldBuilder::FieldBuilder() {
@@ -153,7 +132,11 @@ FieldBuilder::Number FieldBuilder::largest(Number a, Number b) {
 }
 
 FieldBuilder::Number FieldBuilder::apply(uint32_t kind, Number a) {
-  if (const auto value = valueOf(a)) return constant(applied(kind, *value));
+  if (const auto value = valueOf(a)) {
+    // Programs take the root of a negative number for 0: of a constant it is an error.
+    const bool isDefined = kind != rl::RL_FIELD_SQRT || *value >= 0.0;
+    return constant(isDefined ? fieldValue({kind}, *value, 0.0, {}) : std::nan(""));
+  }
   const Node& of = nodes_[a.node];
   const auto isSquare = [&](uint32_t n) { return nodes_[n].kind == rl::RL_FIELD_SQUARE; };
   // The root of a sum of squares is a length, whose slope has a bound at 0, too.

@@ -38,44 +38,6 @@ FieldRange wave(const FieldRange& a, double (*of)(double), double top) {
   return v;
 }
 
-double evaluated(const FieldInstruction& i, double a, double b, const glm::dvec3& p) {
-  const double k = i.constants[0], m = i.constants[1], n = i.constants[2];
-  switch (i.kind) {
-    case rl::RL_FIELD_LINEAR:
-      return k * a + m;
-    case rl::RL_FIELD_PLANE:
-      return k * p.x + m * p.y + n * p.z;
-    case rl::RL_FIELD_ADD:
-      return a + b;
-    case rl::RL_FIELD_SUBTRACT:
-      return a - b;
-    case rl::RL_FIELD_MULTIPLY:
-      return a * b;
-    case rl::RL_FIELD_RECIPROCAL:
-      return 1.0 / a;
-    case rl::RL_FIELD_MIN:
-      return std::min(a, b);
-    case rl::RL_FIELD_MAX:
-      return std::max(a, b);
-    case rl::RL_FIELD_SQUARE:
-      return a * a;
-    case rl::RL_FIELD_SQRT:
-      return std::sqrt(std::max(a, 0.0));
-    case rl::RL_FIELD_LENGTH:
-      return std::sqrt(a * a + b * b);
-    case rl::RL_FIELD_ABS:
-      return std::abs(a);
-    case rl::RL_FIELD_SIN:
-      return std::sin(a);
-    case rl::RL_FIELD_COS:
-      return std::cos(a);
-    case rl::RL_FIELD_EXP:
-      return std::exp(a);
-    default:
-      return std::abs(fromEven(a));
-  }
-}
-
 FieldRange bounded(const FieldInstruction& i, const FieldRange& a, const FieldRange& b,
                    const std::array<FieldRange, 3>& p) {
   const double k = i.constants[0], m = i.constants[1], n = i.constants[2];
@@ -144,11 +106,49 @@ bool isAbove(const FieldProgram& program, const glm::dvec3& low, const glm::dvec
 
 }  // namespace
 
+double fieldValue(const FieldInstruction& i, double a, double b, const glm::dvec3& p) {
+  const double k = i.constants[0], m = i.constants[1], n = i.constants[2];
+  switch (i.kind) {
+    case rl::RL_FIELD_LINEAR:
+      return k * a + m;
+    case rl::RL_FIELD_PLANE:
+      return k * p.x + m * p.y + n * p.z;
+    case rl::RL_FIELD_ADD:
+      return a + b;
+    case rl::RL_FIELD_SUBTRACT:
+      return a - b;
+    case rl::RL_FIELD_MULTIPLY:
+      return a * b;
+    case rl::RL_FIELD_RECIPROCAL:
+      return 1.0 / a;
+    case rl::RL_FIELD_MIN:
+      return std::min(a, b);
+    case rl::RL_FIELD_MAX:
+      return std::max(a, b);
+    case rl::RL_FIELD_SQUARE:
+      return a * a;
+    case rl::RL_FIELD_SQRT:
+      return std::sqrt(std::max(a, 0.0));
+    case rl::RL_FIELD_LENGTH:
+      return std::sqrt(a * a + b * b);
+    case rl::RL_FIELD_ABS:
+      return std::abs(a);
+    case rl::RL_FIELD_SIN:
+      return std::sin(a);
+    case rl::RL_FIELD_COS:
+      return std::cos(a);
+    case rl::RL_FIELD_EXP:
+      return std::exp(a);
+    default:
+      return std::abs(fromEven(a));
+  }
+}
+
 double FieldProgram::at(const glm::dvec3& p) const {
   std::array<double, rl::RL_FIELD_REGISTERS> regs{p.x, p.y, p.z};
   double v = p.x;
   for (const FieldInstruction& i : instructions)
-    v = regs[i.to] = evaluated(i, regs[i.a], regs[i.b], p);
+    v = regs[i.to] = fieldValue(i, regs[i.a], regs[i.b], p);
   return v;
 }
 

@@ -19,6 +19,9 @@ struct FieldInstruction {
   std::array<float, 3> constants{};
 };
 
+// Result of one instruction, of its arguments or of the place p.
+double fieldValue(const FieldInstruction& i, double a, double b, const glm::dvec3& p);
+
 struct FieldRange {
   double low = 0.0, high = 0.0;
 };

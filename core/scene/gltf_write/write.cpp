@@ -173,9 +173,8 @@ void writeSurroundings(const Scene& scene, Output& output) {
     text += fmt::format("[[light]]\nkind = \"ambient\"\nradiance = {}\n", triple(scene.ambient));
   writeTextFile(besideOf(output, ".scene.toml"), text);
   output.notes.push_back(
-      fmt::format("{}: what surrounds the scene is in {}.scene.toml, which begins "
-                  "with this file",
-                  output.file.string(), stem));
+      fmt::format("{}: has no sky: render {} instead, which has it and begins with this file",
+                  output.file.string(), besideOf(output, ".scene.toml").string()));
 }
 
 }  // namespace gltf_write
