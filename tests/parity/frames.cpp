@@ -290,6 +290,8 @@ Scene makeScene(const std::string& name) {
   if (name == "everything") return makeEverythingScene();
   if (name == "materials")  // every kind of closure
     return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/materials.scene.toml");
+  if (name == "nurbs-file")  // met exactly
+    return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/nurbs.scene.toml");
   if (name == "shapes-file")  // every kind of shape
     return loadScene(RESTLAB_SOURCE_DIR "/experiments/scenes/shapes.scene.toml");
   return isGate(name) ? loadScene(gateFile(name).string()) : makeBuiltinScene(name);

@@ -271,8 +271,11 @@ void expectGeneralKernels(const Combination& what) {
   expectParity(what, scenes, kVulkan, kCpuBvh, kSmall);
   if (isOfEveryPass(what)) expectValidFrame(what, "everything", kVulkan);
   expectParity(what, scenes, kVulkan, kCpuEmbree, kSmall);
-  if (what.integrator == "path" && what.denoiser == "none")  // closures and shapes are the walker's
+  if (what.integrator == "path" &&
+      what.denoiser == "none") {  // closures and shapes are the walker's
     expectParity(what, {"materials", "shapes-file"}, kVulkanSpecialised, kCpuEmbree, kSmall);
+    expectSameBitsByBothReads(what, "nurbs-file", kVulkanSpecialised);
+  }
   if (!isOfEveryPass(what)) return;
   for (const char* scene : {"everything", "cornell-box"})
     expectSameBitsByBothReads(what, scene, kVulkan);
