@@ -41,26 +41,30 @@ RL_FN void curvesAddSide(RL_IN(CurvePiece) p, RL_IN(vec3) base, RL_IN(vec3) dir,
   float away2 = dot(dirAway, dirAway);
   float y = dot(base, p.axis);
   vec3 away = base - p.axis * y;
-  // From the point closest to the axis: squares of far points would swallow the radius. A line
-  // along the axis has none, so it is taken near the piece.
-  float reach = p.length + p.startRadius + p.endRadius;
-  float middle = clamp(rlSafeDivide(-dot(away, dirAway), away2), -reach, reach);
+  // From the point closest to the axis: squares of far points would swallow the radius. A line that
+  // is nearly along the side has it far away, and is looked at from an end of the piece.
+  float reach = 0.5f * p.length + max(p.startRadius, p.endRadius);
+  float toAxis = rlSafeDivide(-dot(away, dirAway), away2);
+  float middle = clamp(toAxis, -reach, reach);
   y = y + middle * dirAxis;
   away = away + dirAway * middle;
-  float slant = dot(away, dirAway);
   float radius = p.startRadius - p.sine * y;  // times the cosine it is that of the cone
   float distance2 = dot(away, away);
   float outer = p.cosine * sqrt(distance2);
   float fall = p.sine * dirAxis;
-  // a t^2 + 2 b t + c = 0; root: the quarter of the discriminant over the cosine's square.
+  // a t^2 + 2 b t + c = 0. The quarter of its discriminant is b^2 - a c; at the point closest to
+  // the axis two large terms of it cancel, and are left out.
   float cosine2 = p.cosine * p.cosine;
   float a = cosine2 * away2 - fall * fall;
-  float b = cosine2 * slant + fall * radius;
+  float b = fall * radius;
   float c = (outer - radius) * (outer + radius);
-  float root = away2 * (radius - outer) * (radius + outer) + fall * fall * distance2 +
-               cosine2 * slant * slant + 2.0f * slant * fall * radius;
+  float root = cosine2 * (away2 * (radius - outer) * (radius + outer) + fall * fall * distance2);
+  if (middle != toAxis) {
+    b = b + cosine2 * dot(away, dirAway);
+    root = b * b - a * c;
+  }
   if (!(root >= 0.0f)) return;
-  float q = -(b + (b < 0.0f ? -p.cosine : p.cosine) * sqrt(root));
+  float q = -(b + (b < 0.0f ? -sqrt(root) : sqrt(root)));
   float low = (p.sine - 1.0e-3f) * p.startRadius;
   float high = p.length + (p.sine + 1.0e-3f) * p.endRadius;
   for (uint i = 0u; i < 2u; i = i + 1u) {
@@ -112,6 +116,63 @@ RL_FN vec2 curvesCoordinates(RL_IN(CurvePiece) p, RL_IN(vec3) at) {
   float tangent = rlSafeDivide(sqrt(dot(away, away)), sqrt(dot(fromCentre, fromCentre)) + up);
   float share = tangent * p.cosine / (isStart ? 1.0f + p.sine : 1.0f - p.sine);
   return vec2(turn, isStart ? 0.25f * min(share, 1.0f) : 1.0f - 0.25f * min(share, 1.0f));
+}
+
+// Signed distance to a piece, below 0 inside.
+RL_FN float curvesDistance(RL_IN(CurvePiece) p, RL_IN(vec3) posL) {
+  vec3 at = posL - p.start;
+  float y = dot(at, p.axis);
+  vec3 away = at - p.axis * y;
+  float rho = sqrt(dot(away, away));
+  float foot = y * p.cosine - rho * p.sine;  // of the normal, on the axis, times the cosine
+  if (foot <= 0.0f) return sqrt(dot(at, at)) - p.startRadius;
+  if (foot < p.length * p.cosine) return y * p.sine + rho * p.cosine - p.startRadius;
+  vec3 fromEnd = at - p.axis * p.length;
+  return sqrt(dot(fromEnd, fromEnd)) - p.endRadius;
+}
+
+// The piece on whose surface a point of the union lies: the one that it is deepest in. Rays from
+// afar may find its neighbour first, by rounding, and a point of that could be within the union.
+RL_FN uint curvesOwner(RL_IN(Shape) shape, RL_IN(vec3) posL, uint found) {
+  uint nodes = shape.firstWord;
+  uint leaves = RL_SCENE_UVEC4(gScene.shapeWords, nodes).x;
+  uint owner = found;
+  float least = curvesDistance(curvesPiece(shape, found), posL);
+  uint node = 1u;
+  uint waiting = 0u;
+  bool goesOn = true;
+  while (goesOn) {
+    vec3 low = vec3(shapeVec4(nodes + 2u * node));
+    vec3 high = vec3(shapeVec4(nodes + 2u * node + 1u));
+    bool holds = posL.x >= low.x && posL.y >= low.y && posL.z >= low.z && posL.x <= high.x &&
+                 posL.y <= high.y && posL.z <= high.z;
+    if (holds && node < leaves) {
+      node = 2u * node;
+      waiting = waiting * 2u + 1u;
+      continue;
+    }
+    if (holds) {
+      uint piece = RL_SCENE_UVEC4(gScene.shapeWords, nodes + 2u * node).w;
+      uint end = RL_SCENE_UVEC4(gScene.shapeWords, nodes + 2u * node + 1u).w;
+      for (; piece < end; piece = piece + 1u) {
+        float distance = curvesDistance(curvesPiece(shape, piece), posL);
+        if (distance < least) {
+          least = distance;
+          owner = piece;
+        }
+      }
+    }
+    goesOn = waiting != 0u;
+    while (waiting != 0u && (waiting & 1u) == 0u) {
+      waiting = waiting / 2u;
+      node = node / 2u;
+    }
+    if (goesOn) {
+      waiting = waiting - 1u;
+      node = node + 1u;
+    }
+  }
+  return owner;
 }
 
 // Finds the first point of the union of all pieces. A ray that begins outside meets the piece that
@@ -182,10 +243,17 @@ RL_FN bool curvesIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit
   }
   if (owner == RL_INVALID || (isInside && !(inside < ray.tMax))) return false;
   CurvePiece p = curvesPiece(shape, owner);
-  hit.t = isInside ? inside : nearest;
-  hit.primitive = owner;
   vec2 span = curvesSpan(p, ray.origin, dir);
-  hit.bary = curvesCoordinates(p, (ray.origin - p.start) + dir * (isInside ? span.y : span.x));
+  vec3 at = (ray.origin - p.start) + dir * (isInside ? span.y : span.x);
+  uint outermost = curvesOwner(shape, p.start + at, owner);
+  if (outermost != owner) {
+    CurvePiece other = curvesPiece(shape, outermost);
+    at = at + (p.start - other.start);
+    p = other;
+  }
+  hit.t = isInside ? inside : nearest;
+  hit.primitive = outermost;
+  hit.bary = curvesCoordinates(p, at);
   return true;
 }
 
