@@ -41,7 +41,7 @@ struct CurvePiece {
   vec3 start;  // centre of the first sphere
   float startRadius;
   vec3 axis;  // unit, to the centre of the second sphere
-  float length;
+  float axisLength;
   float endRadius;
   float sine;
   float cosine;
