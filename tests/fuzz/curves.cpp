@@ -1,6 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -13,7 +14,9 @@ namespace restlab::fuzz {
 
 // Checks that strands of few pieces have numbers alone, and that their middle is inside.
 static void checkStrands(const Strands& strands) {
-  const std::vector<uint32_t> words = curveWords(cutStrands(strands, 0.5));
+  std::vector<StrandPiece> cut = cutStrands(strands, 0.5);
+  if (cut.size() > 100'000) return;  // no slow inputs
+  const std::vector<uint32_t> words = curveWords(std::move(cut));
   const size_t pieces = curvePieces(words);
   for (size_t i = 0; i < pieces && i < 1000; ++i) {
     const StrandPiece piece = curvePiece(words, i);
