@@ -12,7 +12,7 @@ namespace restlab::test {
 
 // Leaves out scenes of one shape: the gallery `shapes` has all of these kinds.
 inline std::vector<std::string> variedScenes() {
-  constexpr std::array kOfOneShape{"shape-furnace", "ball", "teapot", "implicit", "sdf"};
+  constexpr std::array kOfOneShape{"shape-furnace", "ball", "teapot", "implicit", "sdf", "hair"};
   std::vector<std::string> names = builtinSceneNames();
   std::erase_if(names, [&](const std::string& name) {
     return std::find(kOfOneShape.begin(), kOfOneShape.end(), name) != kOfOneShape.end();

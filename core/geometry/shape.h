@@ -35,6 +35,19 @@ struct ShapePointW {
   float areaFactor;  // world area over area of the shape's own space
 };
 
+// A piece of a strand: the hull of two spheres. Normals of its side have the component `sine` along
+// the axis, and `cosine` away from it.
+struct CurvePiece {
+  vec3 start;  // centre of the first sphere
+  float startRadius;
+  vec3 axis;  // unit, to the centre of the second sphere
+  float axisLength;
+  float endRadius;
+  float sine;
+  float cosine;
+  uint first;  // of its words
+};
+
 RL_NAMESPACE_END
 
 #endif

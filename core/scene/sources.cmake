@@ -43,6 +43,10 @@ target_sources(rl_core PRIVATE
   scene/field/solid.cpp
   scene/field/solid_tree.cpp
   scene/field/stand_in.cpp
+  scene/curves/curve_words.cpp
+  scene/curves/read_curves.cpp
+  scene/curves/stand_in.cpp
+  scene/curves/strands.cpp
   scene/splines/bezier.cpp
   scene/splines/closest_point.cpp
   scene/splines/mesh_of_surface.cpp
@@ -95,6 +99,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/fields.cpp
   scene/builtin/gallery.cpp
   scene/builtin/glass.cpp
+  scene/builtin/hair.cpp
   scene/builtin/many_lights.cpp
   scene/builtin/media.cpp
   scene/builtin/mesh.cpp
@@ -107,6 +112,7 @@ add_library(rl_scene_files OBJECT
   scene/mitsuba/bsdf.cpp
   scene/mitsuba/bump.cpp
   scene/mitsuba/bsdf_kinds.cpp
+  scene/mitsuba/curves.cpp
   scene/mitsuba/document.cpp
   scene/mitsuba/emitters.cpp
   scene/mitsuba/files.cpp

@@ -12,6 +12,6 @@ import text_seeds
 
 for make in (image_seeds.textures, image_seeds.environments, image_seeds.images, gltf_seeds.scenes,
              gltf_seeds.compressed, text_seeds.scene_files, text_seeds.suites, text_seeds.commands,
-             text_seeds.fields,
+             text_seeds.fields, text_seeds.curves,
              mitsuba_seeds.mitsuba_scenes, mitsuba_seeds.meshes):
     make()

@@ -51,6 +51,33 @@ def scene_files():
     write("scene_file", "bytes.toml", bytes(range(1, 256)))
 
 
+# ---- Strands --------------------------------------------------------------------------------------
+
+
+def curves():
+    def lines(*points):
+        return "".join("{} {} {} {}\n".format(*p) for p in points)
+
+    row = [(i, i * i * 0.1, 0, 0.1) for i in range(7)]
+    # The first byte is the basis: linear, bezier, bspline, catmull-rom.
+    write("curves", "read-linear.txt", b"\0" + (lines(*row[:2]) + "\n\n" + lines(*row[3:])).encode())
+    write("curves", "read-bezier.txt", b"\1" + lines(*row).encode())
+    write("curves", "read-bspline.txt", b"\2" + ("\n" + lines(*row)).replace("\n", " \t\r\n").encode())
+    write("curves", "read-catmull-rom.txt", b"\3" + lines(*row).strip().encode())
+    write("curves", "read-ball.txt", b"\0" + lines((1, 2, 3, 0.5), (1, 2, 3, 0.5)).encode())
+    write("curves", "few.txt", b"\2" + lines(*row[:3]).encode())
+    write("curves", "no-bezier.txt", b"\1" + lines(*row[:6]).encode())
+    write("curves", "nan.txt", b"\0" + lines(row[0], ("nan", 0, 0, 1)).encode())
+    write("curves", "no-radius.txt", b"\0" + lines(row[0], (1, 0, 0, 0)).encode())
+    write("curves", "three-numbers.txt", b"\0" + b"0 0 0\n1 0 0\n")
+    write("curves", "thin.txt", b"\0" + lines((1e8, 0, 0, 1), (1e8, 1, 0, 1)).encode())
+    write("curves", "many-pieces.txt", b"\0" + lines((0, 0, 0, 1e-6), (1e9, 0, 0, 1e-6)).encode())
+    write("curves", "negative-between.txt",
+          b"\3" + lines((0, 0, 0, 9), (1, 0, 0, 0.1), (2, 0, 0, 0.1), (3, 0, 0, 9)).encode())
+    write("curves", "nothing.txt", b"\0\n \n")
+    write("curves", "bytes.txt", bytes(range(256)))
+
+
 # ---- Suites ---------------------------------------------------------------------------------------
 
 

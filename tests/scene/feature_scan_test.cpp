@@ -75,6 +75,8 @@ TEST(FeatureScan, BuiltinScenes) {
       {"implicit",
        rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_IMPLICIT},
       {"sdf", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_SDF},
+      {"hair", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SMOOTH_NORMALS |
+                   rl::RL_FEATURE_SHAPE_CURVES},
       {"teapot",
        rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"ball", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SHAPE_SPHERE |

@@ -44,5 +44,6 @@ set(RL_SCENE_TESTS
   scene/scene_file_shapes_test.cpp
   scene/scene_write_test.cpp
   scene/splines_test.cpp
+  scene/curve_files_test.cpp
 )
 set(RL_SCENE_LIBRARIES draco::draco meshoptimizer::meshoptimizer) # their encoders

@@ -59,3 +59,32 @@ RL_FN float shapeAngleOf(RL_IN(vec2) at) {
   if (at.x < 0.0f) angle = 3.14159265f - angle;
   return at.y < 0.0f ? -angle : angle;
 }
+
+// A word of a shape as numbers.
+RL_FN vec4 shapeVec4(uint at) {
+  uvec4 w = RL_SCENE_UVEC4(gScene.shapeWords, at);
+  return vec4(uintBitsToFloat(w.x), uintBitsToFloat(w.y), uintBitsToFloat(w.z),
+              uintBitsToFloat(w.w));
+}
+
+// Inverse of a direction for shapeEnterBox().
+RL_FN vec3 shapeInverse(RL_IN(vec3) dir) {
+  vec3 d = dir;
+  if (abs(d.x) < 1.0e-18f) d.x = 1.0e-18f;
+  if (abs(d.y) < 1.0e-18f) d.y = 1.0e-18f;
+  if (abs(d.z) < 1.0e-18f) d.z = 1.0e-18f;
+  return vec3(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
+}
+
+// Ray parameter at which a ray enters a box (two words: lower corner, upper corner), at least tMin;
+// 3e38 on a miss. The exit is moved out by the rounding error of the slab test (Ize 2013).
+RL_FN float shapeEnterBox(uint box, RL_IN(vec3) origin, RL_IN(vec3) inverse, float tMin,
+                          float tMax) {
+  vec3 a = (vec3(shapeVec4(box)) - origin) * inverse;
+  vec3 b = (vec3(shapeVec4(box + 1u)) - origin) * inverse;
+  vec3 enters = min(a, b);
+  vec3 leaves = max(a, b);
+  float enter = max(max(enters.x, enters.y), max(enters.z, tMin));
+  float leave = min(min(leaves.x, leaves.y), leaves.z) * 1.0000008f;
+  return enter <= leave && enter <= tMax ? enter : 3.0e38f;
+}

@@ -5,11 +5,6 @@
 RL_FN uvec4 nurbsHead(RL_IN(Shape) shape) {
   return RL_SCENE_UVEC4(gScene.shapeWords, shape.firstWord);  // columns, rows, degrees
 }
-RL_FN vec4 nurbsVec4(uint at) {
-  uvec4 w = RL_SCENE_UVEC4(gScene.shapeWords, at);
-  return vec4(uintBitsToFloat(w.x), uintBitsToFloat(w.y), uintBitsToFloat(w.z),
-              uintBitsToFloat(w.w));
-}
 
 // First word of a piece: origin and radius, normal and sine of its cone, (u0, v0, u1, v1), net.
 RL_FN uint nurbsPiece(RL_IN(Shape) shape, RL_IN(uvec4) head, uint piece) {
@@ -35,14 +30,14 @@ RL_FN void nurbsEvaluate(RL_IN(uvec4) head, uint piece, RL_IN(vec2) st, RL_OUT(v
   for (uint j = 0u; j <= m; j = j + 1u) {
     // Sums of a row likewise, by Horner's rule in s over 1 - s.
     uint row = net + j * (n + 1u);
-    vec4 next = nurbsVec4(row + 1u);
-    vec4 a = nurbsVec4(row);
+    vec4 next = shapeVec4(row + 1u);
+    vec4 a = shapeVec4(row);
     vec4 b = next;
     float factorS = 1.0f;
     for (uint i = 1u; i < n; i = i + 1u) {
       factorS = factorS * st.x * float(n - i) / float(i);
       a = a * restS + next * factorS;
-      next = nurbsVec4(row + i + 1u);
+      next = shapeVec4(row + i + 1u);
       b = b * restS + next * factorS;
     }
     vec4 value = a * restS + b * st.x;
@@ -65,18 +60,6 @@ RL_FN void nurbsEvaluate(RL_IN(uvec4) head, uint piece, RL_IN(vec2) st, RL_OUT(v
   at = vec3(h.x, h.y, h.z) * inverse;
   ds = (vec3(hs.x, hs.y, hs.z) - at * hs.w) * inverse;
   dt = (vec3(ht.x, ht.y, ht.z) - at * ht.w) * inverse;
-}
-
-// Ray parameter at which a ray enters the box of a node, at least tMin; 3e38 on a miss. The exit is
-// moved out by the rounding error of the slab test (Ize 2013).
-RL_FN float nurbsEnter(uint node, RL_IN(vec3) origin, RL_IN(vec3) inverse, float tMin, float tMax) {
-  vec3 a = (vec3(nurbsVec4(node)) - origin) * inverse;
-  vec3 b = (vec3(nurbsVec4(node + 1u)) - origin) * inverse;
-  vec3 enters = min(a, b);
-  vec3 leaves = max(a, b);
-  float enter = max(max(enters.x, enters.y), max(enters.z, tMin));
-  float leave = min(min(leaves.x, leaves.y), leaves.z) * 1.0000008f;
-  return enter <= leave && enter <= tMax ? enter : 3.0e38f;
 }
 
 // The place that a step from st leads to. Around a pole s and t are polar, and a step is that of
@@ -210,8 +193,8 @@ RL_FN bool nurbsPieceIntersect(RL_IN(uvec4) head, uint first, uint piece, uint p
                                RL_INOUT(Hit) hit) {
   float size = sqrt(dot(ray.dir, ray.dir));
   vec3 dir = ray.dir * (1.0f / size);
-  vec4 place = nurbsVec4(first);
-  vec4 cone = nurbsVec4(first + 1u);
+  vec4 place = shapeVec4(first);
+  vec4 cone = shapeVec4(first + 1u);
   vec3 origin = ray.origin - vec3(place);
   float middle = -dot(origin, dir);
   vec3 closest = origin + dir * middle;
@@ -266,11 +249,7 @@ RL_FN bool nurbsPieceIntersect(RL_IN(uvec4) head, uint first, uint piece, uint p
 RL_FN bool nurbsIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit) {
   uvec4 head = nurbsHead(shape);
   uint nodes = shape.firstWord;  // node k begins at nodes + 2 k; those of k = 0 are the head
-  vec3 d = ray.dir;
-  if (abs(d.x) < 1.0e-18f) d.x = 1.0e-18f;
-  if (abs(d.y) < 1.0e-18f) d.y = 1.0e-18f;
-  if (abs(d.z) < 1.0e-18f) d.z = 1.0e-18f;
-  vec3 inverse = vec3(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
+  vec3 inverse = shapeInverse(ray.dir);
   Ray left = ray;
   bool found = false;
   uint node = 1u;
@@ -278,12 +257,13 @@ RL_FN bool nurbsIntersect(RL_IN(Shape) shape, RL_IN(Ray) ray, RL_INOUT(Hit) hit)
   bool goesOn = true;
   while (goesOn) {
     bool isDone = true;  // with this node and all below
-    if (nurbsEnter(nodes + 2u * node, ray.origin, inverse, ray.tMin, left.tMax) < 3.0e38f) {
+    if (shapeEnterBox(nodes + 2u * node, ray.origin, inverse, ray.tMin, left.tMax) < 3.0e38f) {
       uint piece = RL_SCENE_UVEC4(gScene.shapeWords, nodes + 2u * node).w;
       if (piece == RL_INVALID) {
         uint child = 2u * node;
-        float low = nurbsEnter(nodes + 2u * child, ray.origin, inverse, ray.tMin, left.tMax);
-        float high = nurbsEnter(nodes + 2u * child + 2u, ray.origin, inverse, ray.tMin, left.tMax);
+        float low = shapeEnterBox(nodes + 2u * child, ray.origin, inverse, ray.tMin, left.tMax);
+        float high =
+            shapeEnterBox(nodes + 2u * child + 2u, ray.origin, inverse, ray.tMin, left.tMax);
         if (min(low, high) < 3.0e38f) {
           node = high < low ? child + 1u : child;
           waiting = waiting * 2u + (max(low, high) < 3.0e38f ? 1u : 0u);
@@ -317,8 +297,8 @@ RL_FN ShapePoint nurbsPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
   uvec2 cell = uvec2(min(uint(at.x), head.x - 1u), min(uint(at.y), head.y - 1u));
   vec2 st = clamp(at - vec2(float(cell.x), float(cell.y)), vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
   uint first = nurbsPiece(shape, head, cell.y * head.x + cell.x);
-  vec4 place = nurbsVec4(first);
-  vec4 grid = nurbsVec4(first + 2u);
+  vec4 place = shapeVec4(first);
+  vec4 grid = shapeVec4(first + 2u);
   vec3 local;
   vec3 ds;
   vec3 dt;
@@ -333,14 +313,14 @@ RL_FN ShapePoint nurbsPoint(RL_IN(Shape) shape, RL_IN(SurfaceId) id) {
     n = cross(ds, dt);
   }
   float length2 = dot(n, n);
-  vec4 cone = nurbsVec4(first + 1u);
+  vec4 cone = shapeVec4(first + 1u);
   ShapePoint p =
       shapePointOn(vec3(place) + local, length2 > 0.0f ? n * (1.0f / sqrt(length2)) : vec3(cone));
   // Derivatives along the id's coordinates: nurbsDensity() needs their length.
   p.dpdu = ds * float(head.x);
   p.dpdv = dt * float(head.y);
   p.uv = vec2(grid) + st * vec2(grid.z - grid.x, grid.w - grid.y);
-  p.extent = vec3(nurbsVec4(shape.firstWord + 1u));
+  p.extent = vec3(shapeVec4(shape.firstWord + 1u));
   return p;
 }
 

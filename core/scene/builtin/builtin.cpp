@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 17> kScenes{{
+const std::array<Entry, 18> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -106,6 +106,12 @@ const std::array<Entry, 17> kScenes{{
      "a surface on which a function of x, y and z is 0, on a floor"},
     {"sdf", [](const BuiltinName& name) { return builtin::makeSdf(wholeNumber(name, "solid")); },
      "a solid made of others by their signed distances, on a floor"},
+    {"hair",
+     [](const BuiltinName& name) {
+       return builtin::makeHair({.count = wholeNumber(name, "strands"),
+                                 .isMesh = wholeNumber(name, kRepresentationParameter) == 1});
+     },
+     "a ball with hair: thousands of thin strands, on a floor"},
 }};
 
 struct OwnParameter {
@@ -165,6 +171,9 @@ const std::vector<OwnParameter>& ownParameters() {
                         "how the ball is represented: the same image")},
       {"implicit", choiceOf("surface", builtin::implicitSurfaces(), "the function")},
       {"sdf", choiceOf("solid", builtin::solids(), "the solid")},
+      {"hair", {"strands", 2000.0, 1.0, 1e5, "of the same radius, whatever their number"}},
+      {"hair", choiceOf(kRepresentationParameter, {"shape", "mesh"},
+                        "strands as themselves, or as tubes of triangles")},
       {"teapot", choiceOf(kRepresentationParameter, {"mesh", "exact"},
                           "as triangles, or as the surface itself")},
       {"teapot",

@@ -62,6 +62,12 @@ const std::vector<std::string>& implicitSurfaces();
 Scene makeSdf(size_t solid);
 const std::vector<std::string>& solids();
 
+struct HairShape {
+  uint32_t count = 2000;  // strands
+  bool isMesh = false;    // tubes of triangles
+};
+Scene makeHair(const HairShape& hair);
+
 struct MediaShape {
   double overlap = 0.001;  // overlap of the two bodies, m
   int priority = 0;        // priority of the farther body; the nearer, smaller one has 0

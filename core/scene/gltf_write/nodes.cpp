@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/curves/stand_in.h"
 #include "core/scene/field/stand_in.h"
 #include "core/scene/gltf_write/document.h"
 #include "core/scene/mitsuba/mesh_files.h"
@@ -70,6 +71,7 @@ bool isMadeOfTriangles(const std::string& kind) {
 MeshGeometry meshOf(const ShapeGeometry& shape) {
   MeshGeometry mesh = fineMesh(shape);
   const std::string& kind = shape.info->name;
+  if (kind == "curves") mesh = tubesOf(shape.words, true);
   if (kind == "implicit" || kind == "sdf") addFieldNormals(fieldProgram(shape.words), mesh);
   mitsuba::addTangents(mesh);  // a shape's bitangent is at the left of u
   return mesh;

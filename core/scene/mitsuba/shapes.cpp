@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/scene/builtin/mesh.h"
+#include "core/scene/mitsuba/curves.h"
 #include "core/scene/mitsuba/emitters.h"
 #include "core/scene/mitsuba/mesh_files.h"
 #include "core/scene/shapes/fine_meshes.h"
@@ -20,10 +23,12 @@ namespace {
 constexpr uint64_t kMostMeshBytes = uint64_t(1) << 36;
 constexpr size_t kMostInstances = 1u << 24;
 
-// The shape of that name; a cylinder is open, as Mitsuba's. nullopt: there is none.
+// The shape of that name, of those that Mitsuba has; a cylinder is open, as Mitsuba's.
 std::optional<ShapeGeometry> analyticShape(const std::string& type) {
-  const ShapeInfo* info = type == "cone" ? nullptr : findShape(type);  // Mitsuba has no cone
-  if (info == nullptr) return {};
+  constexpr std::array<std::string_view, 5> kTypes{"rectangle", "disk", "sphere", "cylinder",
+                                                   "cube"};
+  if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) return {};
+  const ShapeInfo* info = findShape(type);
   return ShapeGeometry{info, std::vector<float>(info->parameters.size(), 0.0f)};
 }
 
@@ -91,6 +96,28 @@ MeshGeometry Shapes::readMesh(const Element& element, const MeshKey& key) {
   return mesh;
 }
 
+uint32_t Shapes::curvesOf(const Element& element, Parameters& p, glm::dmat4& toWorld) {
+  const glm::dmat4 pointsToWorld = p.transform("to_world");
+  const std::string name = p.text("filename", "");
+  if (!p.has("filename"))
+    p.fail("filename", fmt::format("shape '{}' has no 'filename'", element.type));
+  const std::string source = context_.files.find(name, p.place()).string();
+  std::string key = element.type + " " + source;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) key += fmt::format(" {}", pointsToWorld[column][row]);
+  auto known = curves_.find(key);
+  if (known == curves_.end()) {
+    const Bytes bytes = context_.files.read(source, element.place, kMostMeshBytes);
+    glm::dvec3 centre;
+    context_.scene.geometries.push_back(
+        readCurves(bytes, source, element.type, pointsToWorld, centre));
+    known =
+        curves_.emplace(key, Curves{uint32_t(context_.scene.geometries.size() - 1), centre}).first;
+  }
+  toWorld = glm::translate(glm::dmat4(1.0), known->second.centre);
+  return known->second.geometry;
+}
+
 uint32_t Shapes::meshOf(const Element& element, Parameters& p, bool hasTangents,
                         glm::dmat4& toWorld) {
   const std::string& type = element.type;
@@ -121,11 +148,11 @@ uint32_t Shapes::meshOf(const Element& element, Parameters& p, bool hasTangents,
 
 void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
                       const std::string& name) {
-  if (!analyticShape(element.type) && !isMeshFile(element.type)) {
+  const bool isCurves = isCurveFile(element.type);
+  if (!analyticShape(element.type) && !isMeshFile(element.type) && !isCurves) {
     const std::string text = fmt::format(
         "shape '{}' is unknown; one of obj, ply, serialized, rectangle, disk, sphere, cylinder, "
-        "cube, "
-        "shapegroup, instance expected",
+        "cube, bsplinecurve, linearcurve, shapegroup, instance expected",
         element.type);
     if (!context_.allowsUnknown) context_.report.fail(element.place, text);
     context_.report.warn("unknown shape", element.place, text + "; it is left out");
@@ -148,7 +175,8 @@ void Shapes::addShape(const Element& element, const glm::dmat4& groupToWorld,
   const Bsdfs::Surface surface =
       bsdfs_.surfaceOf(bsdfs.empty() ? nullptr : bsdfs[0], emission, name);
   glm::dmat4 toWorld(1.0);
-  const uint32_t mesh = meshOf(element, p, surface.hasTangents, toWorld);
+  const uint32_t mesh =
+      isCurves ? curvesOf(element, p, toWorld) : meshOf(element, p, surface.hasTangents, toWorld);
   p.finish();
   if (surface.isNull && !emission) return;  // light passes as if nothing were there
   if (context_.scene.geometries[mesh].triangles.empty()) {

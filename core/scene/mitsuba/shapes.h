@@ -26,12 +26,18 @@ class Shapes {
   void addInstances(const Element& element);
   uint32_t meshOf(const Element& element, Parameters& p, bool hasTangents, glm::dmat4& toWorld);
   MeshGeometry readMesh(const Element& element, const MeshKey& key);
+  uint32_t curvesOf(const Element& element, Parameters& p, glm::dmat4& toWorld);
   glm::dmat4 placed(const Element& element, Parameters& p);
 
   const Context& context_;
   Textures& textures_;
   Bsdfs& bsdfs_;
   std::map<MeshKey, uint32_t> meshes_;
+  struct Curves {
+    uint32_t geometry;
+    glm::dvec3 centre;
+  };
+  std::map<std::string, Curves> curves_;  // by plugin, file and transform
   // The file that was read last: serialized ones hold many shapes.
   std::string lastFile_;
   std::vector<uint8_t> lastBytes_;

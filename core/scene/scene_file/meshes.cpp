@@ -10,22 +10,29 @@
 
 namespace restlab {
 
+NamedFile readNamedFile(const ConfigTable& table, const std::filesystem::path& folder,
+                        Scene& scene) {
+  constexpr uint64_t kMostBytes = uint64_t{1} << 32;
+  mitsuba::Report report;
+  mitsuba::Files files(folder, report);
+  const std::string place = table.place("file");
+  const std::filesystem::path file = files.find(table.getString("file", ""), place);
+  NamedFile named{file.string(), files.read(file, place, kMostBytes)};
+  scene.contentHash = hashBytes(named.bytes.data(), named.bytes.size(), scene.contentHash);
+  return named;
+}
+
 MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
-  constexpr uint64_t kMostBytes = uint64_t{1} << 32;
   const std::string name = table.getString("file", "");
-  const std::string place = table.place("file");
   const bool isObj = name.ends_with(".obj");
   if (!isObj && !name.ends_with(".ply"))
     table.fail("file",
                fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
   mitsuba::Report report;
-  mitsuba::Files files(folder, report);
-  const std::filesystem::path file = files.find(name, place);
-  const std::vector<uint8_t> bytes = files.read(file, place, kMostBytes);
-  scene.contentHash = hashBytes(bytes.data(), bytes.size(), scene.contentHash);
-  MeshGeometry mesh = isObj ? mitsuba::readObj(bytes, file.string(), report)
-                            : mitsuba::readPly(bytes, file.string(), report);
+  const NamedFile file = readNamedFile(table, folder, scene);
+  MeshGeometry mesh = isObj ? mitsuba::readObj(file.bytes, file.name, report)
+                            : mitsuba::readPly(file.bytes, file.name, report);
   for (std::string& line : report.warnings()) scene.warnings.push_back(std::move(line));
   // Rows of images begin at v = 0 here, and at v = 1 in OBJ files.
   if (isObj)

@@ -96,13 +96,18 @@ ShapePlace placesOf(const ConfigTable& table, const std::vector<SceneCamera>& ca
   return place;
 }
 
-MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
-  const ShapeInfo& info = readKind(table);
+ShapeGeometry shapeWithParameters(const ConfigTable& table, const ShapeInfo& info) {
   ShapeGeometry shape{&info, {}};
   for (const ShapeParameter& p : info.parameters)
     shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
                                                               int64_t(p.lo), int64_t(p.hi)))
                                      : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
+  return shape;
+}
+
+MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
+  const ShapeInfo& info = readKind(table);
+  ShapeGeometry shape = shapeWithParameters(table, info);
   if (info.readMesh) {
     if (std::optional<MeshGeometry> mesh = info.readMesh(table, placesOf(table, scene.cameras))) {
       mesh->name = info.name;
@@ -116,7 +121,14 @@ MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
 MeshGeometry readGeometry(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
   if (!table.has("file")) return readShape(table, scene);
-  if (table.has("kind")) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
+  if (table.has("kind")) {
+    const ShapeInfo& info = readKind(table);
+    if (!info.readFile) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
+    ShapeGeometry shape = shapeWithParameters(table, info);
+    const NamedFile file = readNamedFile(table, folder, scene);
+    info.readFile(table, file.name, file.bytes, shape);
+    return makeShape(std::move(shape), info.name);
+  }
   MeshGeometry mesh = readMeshFile(table, folder, scene);
   readNormals(table, mesh);
   mesh.name = std::filesystem::path(table.getString("file", "")).stem().string();

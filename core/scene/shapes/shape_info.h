@@ -62,6 +62,11 @@ struct ShapeInfo {
   // Reads the keys of a [[shape]] that are not parameters, into ShapeGeometry::words. Throws Error
   // (badInput). Not set: there are none.
   std::function<void(const ConfigTable& table, ShapeGeometry& shape)> read{};
+  // The same, where the key 'file' names a file: its bytes, and its name for error lines. Throws
+  // Error (badInput, badUsage). Not set: there are no files of the kind.
+  std::function<void(const ConfigTable& table, const std::string& file,
+                     const std::vector<uint8_t>& bytes, ShapeGeometry& shape)>
+      readFile{};
   // Reads a [[shape]] that becomes triangles; nullopt if it is to be met exactly. Throws Error
   // (badUsage). Not set: none does.
   std::function<std::optional<MeshGeometry>(const ConfigTable& table, const ShapePlace& place)>
