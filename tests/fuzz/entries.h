@@ -30,6 +30,8 @@ bool readObjMesh(const uint8_t* bytes, size_t count);
 bool readPlyMesh(const uint8_t* bytes, size_t count);
 // An expression, or, behind an s, a solid made of others.
 bool readField(const uint8_t* bytes, size_t count);
+// Samples of a solid, .vol.
+bool readGridFile(const uint8_t* bytes, size_t count);
 bool readSerializedMesh(const uint8_t* bytes, size_t count);
 
 }  // namespace restlab::fuzz

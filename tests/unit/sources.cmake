@@ -56,6 +56,8 @@ list(APPEND RL_UNIT_TESTS
   field_text_test.cpp
   field_trace_test.cpp
   nurbs_test.cpp
+  field_grid_test.cpp
+  distance_grid_test.cpp
 )
 
 # They set macros for the kernels that they include.

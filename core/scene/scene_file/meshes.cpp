@@ -10,20 +10,13 @@
 
 namespace restlab {
 
-MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
-                          Scene& scene) {
-  constexpr uint64_t kMostBytes = uint64_t{1} << 32;
-  const std::string name = table.getString("file", "");
-  const std::string place = table.place("file");
-  const bool isObj = name.ends_with(".obj");
-  if (!isObj && !name.ends_with(".ply"))
-    table.fail("file",
-               fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
-  mitsuba::Report report;
-  mitsuba::Files files(folder, report);
-  const std::filesystem::path file = files.find(name, place);
-  const std::vector<uint8_t> bytes = files.read(file, place, kMostBytes);
-  scene.contentHash = hashBytes(bytes.data(), bytes.size(), scene.contentHash);
+namespace {
+
+constexpr uint64_t kLargestMesh = uint64_t{1} << 32;
+
+MeshGeometry meshOfBytes(const std::vector<uint8_t>& bytes, const std::filesystem::path& file,
+                         mitsuba::Report& report, Scene& scene) {
+  const bool isObj = file.string().ends_with(".obj");
   MeshGeometry mesh = isObj ? mitsuba::readObj(bytes, file.string(), report)
                             : mitsuba::readPly(bytes, file.string(), report);
   for (std::string& line : report.warnings()) scene.warnings.push_back(std::move(line));
@@ -32,6 +25,46 @@ MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path&
     for (glm::vec2& uv : mesh.uvs[0]) uv.y = 1.0f - uv.y;
   if (!mesh.normals.empty()) mitsuba::completeNormals(mesh);
   return mesh;
+}
+
+}  // namespace
+
+bool isMeshFile(const std::string& name) {
+  return name.ends_with(".obj") || name.ends_with(".ply");
+}
+
+Scene sceneOfMesh(const std::filesystem::path& file) {
+  Scene scene;
+  mitsuba::Report report;
+  mitsuba::Files files(file.parent_path(), report);
+  scene.geometries.push_back(meshOfBytes(files.read(file, "", kLargestMesh), file, report, scene));
+  scene.instances.push_back({file.stem().string()});
+  return scene;
+}
+
+MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
+                          Scene& scene) {
+  const std::string name = table.getString("file", "");
+  const std::string place = table.place("file");
+  if (!isMeshFile(name))
+    table.fail("file",
+               fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
+  mitsuba::Report report;
+  mitsuba::Files files(folder, report);
+  const std::filesystem::path file = files.find(name, place);
+  const std::vector<uint8_t> bytes = files.read(file, place, kLargestMesh);
+  scene.contentHash = hashBytes(bytes.data(), bytes.size(), scene.contentHash);
+  return meshOfBytes(bytes, file, report, scene);
+}
+
+std::vector<uint8_t> readNamedFile(const std::string& name, uint64_t mostBytes,
+                                   const std::string& place, const std::filesystem::path& folder,
+                                   Scene& scene) {
+  mitsuba::Report report;
+  mitsuba::Files files(folder, report);
+  std::vector<uint8_t> bytes = files.read(files.find(name, place), place, mostBytes);
+  scene.contentHash = hashBytes(bytes.data(), bytes.size(), scene.contentHash);
+  return bytes;
 }
 
 namespace {

@@ -1,7 +1,10 @@
 // Meshes of scene files: their files and their normals.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/base/config.h"
 #include "core/scene/scene.h"
@@ -12,6 +15,16 @@ namespace restlab {
 // of the scene. Throws Error (badInput, badUsage).
 MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene);
+
+// Reads an .obj or a .ply alone. Throws Error (badInput).
+Scene sceneOfMesh(const std::filesystem::path& file);
+bool isMeshFile(const std::string& name);
+
+// Reads a file that is named at `place`, below `folder`; adds it to the content hash of the scene.
+// Throws Error (badInput).
+std::vector<uint8_t> readNamedFile(const std::string& name, uint64_t mostBytes,
+                                   const std::string& place, const std::filesystem::path& folder,
+                                   Scene& scene);
 
 // Gives a mesh the normals that the key 'normals' says: "file" (as they are), "flat", "smooth" or
 // the angle of creases in degrees. Without the key: as they are. Throws Error (badUsage).

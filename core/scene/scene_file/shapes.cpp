@@ -96,7 +96,8 @@ ShapePlace placesOf(const ConfigTable& table, const std::vector<SceneCamera>& ca
   return place;
 }
 
-MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
+MeshGeometry readShape(const ConfigTable& table, const std::filesystem::path& folder,
+                       Scene& scene) {
   const ShapeInfo& info = readKind(table);
   ShapeGeometry shape{&info, {}};
   for (const ShapeParameter& p : info.parameters)
@@ -109,13 +110,16 @@ MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
       return std::move(*mesh);
     }
   }
-  if (info.read) info.read(table, shape);
+  const auto files = [&](const std::string& name, uint64_t most) {
+    return readNamedFile(name, most, name, folder, scene);
+  };
+  if (info.read) info.read(table, files, shape);
   return makeShape(std::move(shape), info.name);
 }
 
 MeshGeometry readGeometry(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
-  if (!table.has("file")) return readShape(table, scene);
+  if (!table.has("file")) return readShape(table, folder, scene);
   if (table.has("kind")) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
   MeshGeometry mesh = readMeshFile(table, folder, scene);
   readNormals(table, mesh);

@@ -37,6 +37,9 @@ struct ShapePlace {
   std::vector<SceneCamera> cameras;  // none: not known yet
 };
 
+// Bytes of a file that a [[shape]] names, at most `most` of them. Throws Error (badInput).
+using ShapeFiles = std::function<std::vector<uint8_t>(const std::string& name, uint64_t most)>;
+
 // One kind of shapeRegistry(). Functions take a shape of that kind with a value for each parameter,
 // within its range.
 struct ShapeInfo {
@@ -61,7 +64,8 @@ struct ShapeInfo {
   std::function<MeshGeometry(const ShapeGeometry& shape)> standIn;
   // Reads the keys of a [[shape]] that are not parameters, into ShapeGeometry::words. Throws Error
   // (badInput). Not set: there are none.
-  std::function<void(const ConfigTable& table, ShapeGeometry& shape)> read{};
+  std::function<void(const ConfigTable& table, const ShapeFiles& files, ShapeGeometry& shape)>
+      read{};
   // Reads a [[shape]] that becomes triangles; nullopt if it is to be met exactly. Throws Error
   // (badUsage). Not set: none does.
   std::function<std::optional<MeshGeometry>(const ConfigTable& table, const ShapePlace& place)>
