@@ -34,9 +34,15 @@ target_sources(rl_core PRIVATE
   scene/compiled/split_triangles.cpp
   scene/shapes/shape_info.cpp
   scene/shapes/fine_meshes.cpp
+  scene/distance/closest_triangle.cpp
+  scene/distance/distance_grid.cpp
+  scene/distance/triangles.cpp
+  scene/distance/winding.cpp
   scene/field/builder.cpp
   scene/field/expression.cpp
   scene/field/fault.cpp
+  scene/field/grid.cpp
+  scene/field/grid_file.cpp
   scene/field/program.cpp
   scene/field/reader.cpp
   scene/field/shape.cpp

@@ -128,15 +128,16 @@ int main(int argc, char** argv) {
                "restlab");
   app.require_subcommand(0, 1);
   app.footer(kFooter);
-  std::vector<Verb> verbs = {{"run", addRunVerb(app)},         {"status", addStatusVerb(app)},
-                             {"report", addReportVerb(app)},   {"clean", addCleanVerb(app)},
-                             {"render", addRenderVerb(app)},   {"reference", addReferenceVerb(app)},
-                             {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
-                             {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
-                             {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
-                             {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)},
-                             {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)},
-                             {"convert", addConvertVerb(app)}};
+  std::vector<Verb> verbs = {
+      {"run", addRunVerb(app)},         {"status", addStatusVerb(app)},
+      {"report", addReportVerb(app)},   {"clean", addCleanVerb(app)},
+      {"render", addRenderVerb(app)},   {"reference", addReferenceVerb(app)},
+      {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
+      {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},
+      {"list", addListVerb(app)},       {"bench", addBenchVerb(app)},
+      {"view", addViewVerb(app)},       {"bias", addBiasVerb(app)},
+      {"graph", addGraphVerb(app)},     {"bsdf", addBsdfVerb(app)},
+      {"convert", addConvertVerb(app)}, {"distance-field", addDistanceFieldVerb(app)}};
   for (const Verb& verb : verbs) addVerbosity(*app.get_subcommand(verb.name));
   try {
     checkDefaultKernelChoice();

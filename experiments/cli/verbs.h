@@ -30,6 +30,7 @@ Action addFigureVerb(CLI::App& app);
 Action addDenoiseVerb(CLI::App& app);
 Action addInfoVerb(CLI::App& app);
 Action addConvertVerb(CLI::App& app);
+Action addDistanceFieldVerb(CLI::App& app);
 Action addListVerb(CLI::App& app);
 Action addBenchVerb(CLI::App& app);
 Action addBiasVerb(CLI::App& app);

@@ -32,6 +32,8 @@ bool readPlyMesh(const uint8_t* bytes, size_t count);
 bool readField(const uint8_t* bytes, size_t count);
 // Strands as text, behind a byte for their basis.
 bool readCurves(const uint8_t* bytes, size_t count);
+// Samples of a solid, .vol.
+bool readGridFile(const uint8_t* bytes, size_t count);
 bool readSerializedMesh(const uint8_t* bytes, size_t count);
 
 }  // namespace restlab::fuzz

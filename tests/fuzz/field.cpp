@@ -1,8 +1,10 @@
+#include <array>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/scene/field/expression.h"
+#include "core/scene/field/grid_file.h"
 #include "core/scene/field/solid.h"
 #include "core/scene/field/stand_in.h"
 #include "tests/fuzz/entries.h"
@@ -28,6 +30,20 @@ bool readField(const uint8_t* bytes, size_t count) {
   try {
     checkField(bytes[0] == 's' ? readSolid(text)
                                : readExpression(text, glm::vec3(-1.0f), glm::vec3(1.0f)));
+    return true;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::badInput || std::string(error.what()).empty())
+      throw std::logic_error(error.what());
+    return false;
+  }
+}
+
+bool readGridFile(const uint8_t* bytes, size_t count) {
+  try {
+    const SampledGrid grid = readGrid({bytes, bytes + count}, "x.vol");
+    const std::array box{glm::vec3(grid.low - 0.1), glm::vec3(grid.high + 0.1)};
+    checkField(readSolid("rotate(1, 2, 3, 40, grid('x.vol'))", box,
+                         [&](const std::string&) { return FieldGrid(grid); }));
     return true;
   } catch (const Error& error) {
     if (error.code() != ExitCode::badInput || std::string(error.what()).empty())

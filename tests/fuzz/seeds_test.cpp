@@ -49,7 +49,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"command", readCommand}, Target{"scene_file", readSceneFile},
                       Target{"mitsuba", readMitsuba}, Target{"obj", readObjMesh},
                       Target{"ply", readPlyMesh}, Target{"serialized", readSerializedMesh},
-                      Target{"field", readField}, Target{"curves", readCurves}),
+                      Target{"field", readField}, Target{"curves", readCurves},
+                      Target{"grid", readGridFile}),
     [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/field/grid_file.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_file/scene_file.h"
 #include "core/scene/shapes/shape_info.h"
@@ -151,6 +152,44 @@ TEST_F(SceneFileShapes, ErrorsSayWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(errorOf("[[shape]]\nfile = \"../roof.obj\"\n").find("x.scene.toml:2:8"),
             std::string::npos);
+}
+
+TEST_F(SceneFileShapes, SolidsReadGridsBelowTheirFolder) {
+  SampledGrid grid{glm::ivec3(9), glm::dvec3(-1.0), glm::dvec3(1.0), {}};
+  for (int i = 0; i < 9 * 9 * 9; ++i)
+    grid.values.push_back(
+        float(glm::length(glm::dvec3(i % 9, i / 9 % 9, i / 81) / 4.0 - 1.0) - 0.6));
+  const auto writeGrid = [&] {
+    const std::vector<uint8_t> bytes = gridBytes(grid);
+    directory_.write("ball.vol", std::string(bytes.begin(), bytes.end()));
+  };
+  writeGrid();
+  const auto sdf = [](const std::string& tree) {
+    return "[[shape]]\nkind = \"sdf\"\ntree = \"" + tree + "\"\n";
+  };
+  const Scene ball = load(sdf("grid('ball.vol')"));
+  const ShapeGeometry& shape = *ball.geometries.at(0).shape;
+  EXPECT_TRUE(shape.info->isClosed(shape));
+  EXPECT_TRUE(shape.info->isInside(shape, {0.0, 0.0, 0.5}));
+  EXPECT_FALSE(shape.info->isInside(shape, {0.4, 0.4, 0.4}));
+  load(sdf("smooth_union(0.1, grid('ball.vol'), translate(0.5, 0, 0, grid('./ball.vol')))"));
+  grid.values[0] += 1.0f;
+  writeGrid();
+  EXPECT_NE(load(sdf("grid('ball.vol')")).contentHash, ball.contentHash);
+  const auto expectError = [&](const std::string& tree, const std::string& part) {
+    const std::string line = errorOf(sdf(tree));
+    EXPECT_EQ(line.rfind("x.scene.toml:3:1: 'tree': ", 0), 0u) << line;
+    EXPECT_NE(line.find(part), std::string::npos) << line;
+  };
+  expectError("grid('bell.vol')", "file 'bell.vol' does not exist; did you mean 'ball.vol'?");
+  expectError("grid('../ball.vol')", "leaves the scene's folder");
+  expectError("grid(ball.vol)", "column 6, 'ball.vol)': a name between ' and ' is missing");
+  expectError("grid('ball.vol)", "the ' that ends it is missing");
+  directory_.write("ball.vol", "VOL\3 cut off");
+  expectError("grid('ball.vol')", "ball.vol: ends within its header");
+  grid.values.assign(grid.values.size(), 1.0f);
+  writeGrid();
+  expectError("grid('ball.vol')", "no sample of a grid is 0 or below");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "core/scene/field/expression.h"
 #include "core/scene/field/solid.h"
+#include "tests/unit/grid_cases.h"
 #include "tests/unit/shape_cases.h"
 
 namespace restlab::unit {
@@ -19,6 +20,21 @@ struct FieldCase {
 
 FieldProgram ofExpression(const std::string& text, float reach = 1.0f) {
   return readExpression(text, glm::vec3(-reach), glm::vec3(reach));
+}
+
+// Samples that say inside and outside alone, far steeper than distances.
+SampledGrid signGrid() {
+  return sampledGrid(glm::ivec3(20, 20, 20), glm::dvec3(-1.0), glm::dvec3(1.0),
+                     [](const glm::dvec3& p) { return glm::length(p) < 0.75 ? -5.0 : 8.0; });
+}
+
+// Cells of three widths, with a wall that is thinner than they are.
+SampledGrid longGrid() {
+  return sampledGrid(glm::ivec3(40, 7, 11), glm::dvec3(-0.4, -0.5, -1.2), glm::dvec3(0.5, 0.6, 1.1),
+                     [](const glm::dvec3& p) {
+                       const glm::dvec3 d = glm::abs(p) - glm::dvec3(0.015, 0.35, 0.8);
+                       return std::max({d.x, d.y, d.z});
+                     });
 }
 
 const std::vector<FieldCase>& fieldCases() {
@@ -40,7 +56,17 @@ const std::vector<FieldCase>& fieldCases() {
       {"shell", readSolid("difference(shell(0.01, sphere(1)), translate(1, 0, 0, sphere(0.7)))")},
       {"plate", readSolid("box(1, 1, 0.0002)")},
       {"copies", readSolid("repeat(0.5, 0.5, 0, sphere(0.2))",
-                           std::array{glm::vec3(-1.0f), glm::vec3(1.0f)})}};
+                           std::array{glm::vec3(-1.0f), glm::vec3(1.0f)})},
+      {"grid", solidOfGrids("grid('a')", {{"a", sphereGrid(24, 1.0, 0.8)}})},
+      {"grid_of_noise", solidOfGrids("grid('a')", {{"a", noiseGrid(12, 7)}})},
+      {"grid_of_signs", solidOfGrids("grid('a')", {{"a", signGrid()}})},
+      {"grids_in_tree",
+       solidOfGrids("smooth_union(0.2, rotate(1, 2, 3, 40, grid('a')), translate(0.7, 0, 0, "
+                    "scale(0.3, grid('b'))), translate(0, 0.6, 0.5, sphere(0.4)))",
+                    {{"a", sphereGrid(9, 0.7, 0.6)}, {"b", noiseGrid(6, 8)}})},
+      {"grid_twisted", solidOfGrids("twist(50, grid('a'))", {{"a", longGrid()}})},
+      {"grid_cut", solidOfGrids("grid('a')", {{"a", sphereGrid(17, 0.7, 0.8)}},
+                                std::array{glm::vec3(-0.9f), glm::vec3(0.9f)})}};
   return kAll;
 }
 

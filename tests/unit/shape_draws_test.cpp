@@ -1,7 +1,9 @@
 // Shapes that emit: draws fit their density, a hit has the density of the draw, and the light that
 // arrives is that of formulas.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -24,7 +26,7 @@ class ShapeDraws : public testing::TestWithParam<ShapeCase> {};
 // Counts draws in cells of the ids' coordinates, against the integral of the density over each.
 void expectDrawsFit(const ShapeCase& of, const glm::vec3& receiver, const std::string& what) {
   LocalShape local(of);
-  constexpr int kIdCells = 12, kFine = 8, kN = kIdCells * kFine;
+  constexpr int kIdCells = 12, kFine = 20, kN = kIdCells * kFine;
   constexpr uint64_t kDraws = 200'000;
   std::vector<double> expected;
   std::vector<uint64_t> counts;
@@ -181,6 +183,102 @@ TEST(ShapeLights, RectanglesAreDrawnBySolidAngle) {
       ASSERT_NEAR(local.d->shapeDensity(local.shape, receiver, p) / density, 1.0, 2e-5);
     }
     expectFits(counts, expected, kDraws, "from z " + std::to_string(receiver.z));
+  }
+}
+
+// What a receiver sees of the unit disk: cosines to the normal at the near and the far side of it
+// in the direction `turn` (radians, from where the middle lies); false: nothing.
+bool diskCosines(double away, double z, double turn, std::array<double, 2>& between) {
+  const double along = away * std::cos(turn), inside = 1.0 - away * away + along * along;
+  if (!(inside > 0.0)) return false;
+  const double far = along + std::sqrt(inside), near = std::max(along - std::sqrt(inside), 0.0);
+  if (!(far > 0.0)) return false;
+  between = {z / std::hypot(z, near), z / std::hypot(z, far)};
+  return true;
+}
+
+// From a ten-thousandth of its radius to where it is small; cells are counted in directions.
+TEST(ShapeLights, DisksAreDrawnBySolidAngle) {
+  const ShapeCase& of = shapeNamed("disk");
+  LocalShape local(of);
+  constexpr int kTurns = 12, kSlices = 6, kFine = 40, kDraws = 300'000;
+  Inputs inputs(17);
+  for (const glm::vec3& receiver :
+       {glm::vec3(0.2f, -0.3f, 2e-4f), glm::vec3(0.6f, 0.0f, -0.02f),
+        glm::vec3(0.0f, 0.999f, 2e-3f), glm::vec3(-1.002f, 0.0f, 3e-3f),
+        glm::vec3(1.1f, 0.9f, 0.05f), glm::vec3(0.0f, 0.0f, 0.3f), glm::vec3(2.0f, -3.0f, 1.0f),
+        glm::vec3(-0.4f, 0.1f, -6.0f), glm::vec3(300.0f, 200.0f, 150.0f)}) {
+    const std::string what = fmt::format("from ({}, {}, {})", receiver.x, receiver.y, receiver.z);
+    const double z = std::abs(double(receiver.z)), away = std::hypot(receiver.x, receiver.y);
+    const glm::dvec2 towards = away > 0.0 ? -glm::dvec2(receiver) / away : glm::dvec2(1.0, 0.0);
+    const double widest = away > 1.0 ? std::asin(1.0 / away) : kPi;
+    const auto densityAt = [&](const rl::ShapePoint& p) {
+      const double distance = glm::length(glm::dvec3(p.posL) - glm::dvec3(receiver));
+      return double(local.d->shapeDensity(local.shape, receiver, p)) * distance * distance *
+             distance / z;
+    };
+    std::vector<double> expected(size_t{kTurns} * kSlices, 0.0);
+    double angle = 0.0, total = 0.0;
+    for (int i = 0; i < kTurns * kFine; ++i) {
+      const double step = 2.0 * widest / (kTurns * kFine), turn = -widest + (i + 0.5) * step;
+      std::array<double, 2> c{};
+      if (!diskCosines(away, z, turn, c)) continue;
+      angle += (c[0] - c[1]) * step;
+      for (int k = 0; k < kSlices * 4; ++k) {
+        const double cosine = glm::mix(c[0], c[1], (k + 0.5) / (kSlices * 4));
+        const double along = z * std::sqrt(1.0 - cosine * cosine) / cosine;
+        const glm::dvec2 side(std::cos(turn), std::sin(turn));
+        const glm::dvec2 at =
+            glm::dvec2(receiver) + along * glm::dvec2(side.x * towards.x - side.y * towards.y,
+                                                      side.x * towards.y + side.y * towards.x);
+        const double p = densityAt(local.d->shapePoint(
+                             local.shape, {0, 0, glm::vec2(at) * 0.5f + glm::vec2(0.5f)})) *
+                         (c[0] - c[1]) * step / (kSlices * 4);
+        expected[size_t(i / kFine) * kSlices + size_t(k / 4)] += p;
+        total += p;
+      }
+    }
+    EXPECT_NEAR(total, 1.0, 1e-3) << what << ": the density must integrate to 1";
+    for (double& p : expected) p /= total;
+    std::vector<uint64_t> counts(expected.size(), 0);
+    for (int i = 0; i < kDraws; ++i) {
+      const rl::SurfaceId id = local.d->shapeDraw(local.shape, receiver, inputs.square());
+      const rl::ShapePoint p = local.d->shapePoint(local.shape, id);
+      ASSERT_NEAR(densityAt(p) * angle, 1.0, 0.02) << what;
+      const glm::dvec3 d = glm::dvec3(p.posL) - glm::dvec3(receiver);
+      const double turn =
+          std::atan2(towards.x * d.y - towards.y * d.x, towards.x * d.x + towards.y * d.y);
+      std::array<double, 2> c{};
+      diskCosines(away, z, turn, c);
+      const auto cell = [](double v, int n) { return std::clamp(int(v * n), 0, n - 1); };
+      const double slice = (c[0] - z / glm::length(d)) / (c[0] - c[1]);
+      ++counts[size_t(cell((turn + widest) / (2.0 * widest), kTurns)) * kSlices +
+               size_t(cell(slice, kSlices))];
+    }
+    expectFits(counts, expected, kDraws, what);
+  }
+}
+
+// Receivers in the plane, at the rim, as far as floats reach: points of the disk, and a density.
+TEST(ShapeLights, DisksHaveADensityFromEverywhere) {
+  LocalShape local(shapeNamed("disk"));
+  Inputs inputs(18);
+  for (int i = 0; i < 200'000; ++i) {
+    const auto any = [&] {
+      return inputs.below(8) == 0
+                 ? 0.0f
+                 : inputs.scale(1e-18f, 1e18f) * (inputs.below(2) == 0 ? 1.0f : -1.0f);
+    };
+    glm::vec3 receiver(any(), any(), any());
+    if (i % 4 == 0) receiver = glm::vec3(glm::vec2(inputs.direction()), any());
+    if (i % 4 == 1) receiver = glm::vec3(1.0f + inputs.scale(1e-7f, 1.0f), 0.0f, any());
+    const rl::SurfaceId id = local.d->shapeDraw(local.shape, receiver, inputs.square());
+    ASSERT_TRUE(id.bary.x >= 0.0f && id.bary.x <= 1.0f && id.bary.y >= 0.0f && id.bary.y <= 1.0f);
+    const rl::ShapePoint p = local.d->shapePoint(local.shape, id);
+    ASSERT_LE(glm::length(p.posL), 1.000001f);
+    const float density = local.d->shapeDensity(local.shape, receiver, p);
+    ASSERT_TRUE(density > 0.0f && density < 1e12f)
+        << fmt::format("{} from ({}, {}, {})", density, receiver.x, receiver.y, receiver.z);
   }
 }
 

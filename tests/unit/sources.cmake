@@ -57,6 +57,8 @@ list(APPEND RL_UNIT_TESTS
   field_trace_test.cpp
   nurbs_test.cpp
   curves_test.cpp
+  field_grid_test.cpp
+  distance_grid_test.cpp
 )
 
 # They set macros for the kernels that they include.

@@ -26,7 +26,9 @@ const uint RL_FIELD_COS = 12u;
 const uint RL_FIELD_EXP = 13u;
 const uint RL_FIELD_FOLD = 14u;    // distance of a to the nearest even number
 const uint RL_FIELD_LENGTH = 15u;  // of the vector (a, b)
-const uint RL_FIELD_KINDS = 16u;
+// Samples at the place (a, b, register k), m uvec4s behind the first instruction.
+const uint RL_FIELD_GRID = 16u;
+const uint RL_FIELD_KINDS = 17u;
 
 const uint RL_FIELD_REGISTERS = 24u;
 // The first words of a shape: box (x, y, z) and number of instructions, box (x, y, z) and whether
@@ -46,6 +48,13 @@ const float RL_FIELD_WAVE_ERROR = 3.0e-7f;
 // missed, both.
 const float RL_FIELD_SHORTEST = 9.5367431640625e-7f;
 
+// Words of a grid, as uvec4s: low corner of its box and samples along x, cells a unit and samples
+// along y, high corner and samples along z, then samples, x fastest. Then blocks of 2^3 cells,
+// of 4^3 and so on, up to one: each two uvec4s, FieldBounds.
+const uint RL_FIELD_GRID_HEADER = 3u;
+// Rounding of an interpolated value, over the largest sample of its cell.
+const float RL_FIELD_GRID_ERROR = 1.0e-6f;
+
 struct FieldSlopes {
   vec2 r[RL_FIELD_REGISTERS];  // value, derivative along a direction
 };
@@ -60,6 +69,28 @@ struct Field {
   vec3 high;
   uint first;  // uvec4 of SceneData::shapeWords
   uint count;
+};
+
+// Samples, between which values are interpolated along each axis in turn.
+struct FieldGrid {
+  vec3 low;
+  vec3 high;
+  vec3 scale;  // cells a unit
+  uvec3 cells;
+  uint samples;  // uvec4 of the first
+  uint blocks;
+};
+
+// Samples of a cell: x and y in the order 00, 10, 01, 11, at the low z and at the high one.
+struct FieldCell {
+  vec4 low;
+  vec4 high;
+};
+
+// Bounds over a part of a grid, derivatives a cell.
+struct FieldBounds {
+  vec4 valueX;  // least and largest value, of the derivative along x
+  vec4 yz;
 };
 
 RL_NAMESPACE_END

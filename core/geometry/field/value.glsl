@@ -90,6 +90,9 @@ RL_FN_OUTLINE vec2 fieldSlope(RL_IN(Field) f, RL_IN(vec3) at, RL_IN(vec3) dir) {
     } else if (kind == RL_FIELD_RECIPROCAL) {
       float inverse = rlSafeDivide(1.0f, a.x);
       v = vec2(inverse, -inverse * inverse * a.y);
+    } else if (kind == RL_FIELD_GRID) {
+      vec2 c = regs.r[q.y];
+      v = fieldGridSlope(f.first + q.z, vec3(a.x, b.x, c.x), vec3(a.y, b.y, c.y));
     } else {
       float away = fieldFromEven(a.x);
       v = away < 0.0f ? vec2(-away, -a.y) : vec2(away, a.y);

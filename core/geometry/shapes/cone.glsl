@@ -76,7 +76,7 @@ RL_FN SurfaceId coneDraw(RL_IN(Shape) shape, RL_IN(vec3) receiverL, RL_IN(vec2) 
     id.bary = vec2(shapeDiamond(rlCosSin2Pi(u.y)), 1.0f - sqrt(min(u.x / side, 1.0f)));
     return id;
   }
-  id = diskDraw(shape, receiverL, vec2((u.x - side) / (1.0f - side), u.y));
+  id = diskAnywhere(vec2((u.x - side) / (1.0f - side), u.y));
   id.primitive = 1u;
   return id;
 }

@@ -74,7 +74,7 @@ RL_FN SurfaceId cylinderDraw(RL_IN(Shape) shape, RL_IN(vec3) receiverL, RL_IN(ve
     return id;
   }
   float rest = (u.x - side) / (1.0f - side) * 2.0f;
-  id = diskDraw(shape, receiverL, vec2(rest < 1.0f ? rest : rest - 1.0f, u.y));
+  id = diskAnywhere(vec2(rest < 1.0f ? rest : rest - 1.0f, u.y));
   id.primitive = rest < 1.0f ? 1u : 2u;
   return id;
 }

@@ -16,8 +16,9 @@ constexpr uint32_t kPlace = rl::RL_FIELD_KINDS;         // a coordinate
 constexpr uint32_t kConstant = rl::RL_FIELD_KINDS + 1;  // not yet an instruction
 constexpr size_t kMostInstructions = 256, kMostNodes = 4096;
 
+bool hasThree(uint32_t kind) { return kind == rl::RL_FIELD_GRID; }
 bool hasTwo(uint32_t kind) {
-  return kind == rl::RL_FIELD_ADD || kind == rl::RL_FIELD_SUBTRACT ||
+  return hasThree(kind) || kind == rl::RL_FIELD_ADD || kind == rl::RL_FIELD_SUBTRACT ||
          kind == rl::RL_FIELD_MULTIPLY || kind == rl::RL_FIELD_LENGTH || kind == rl::RL_FIELD_MIN ||
          kind == rl::RL_FIELD_MAX;
 }
@@ -47,11 +48,14 @@ FieldBuilder::Number FieldBuilder::make(uint32_t kind, Number a, Number b,
   if (!isNew) return {found->second};
   if (nodes_.size() >= kMostNodes) failInput("too long: it has thousands of operations");
   Node node{kind, a.node, b.node, constants, {}, span_};
-  if (hasOne(kind)) node.registers = nodes_[a.node].registers;
-  if (hasTwo(kind)) {
-    const uint32_t other = nodes_[b.node].registers;
-    node.registers = std::max(node.registers, other) + (node.registers == other ? 1 : 0);
+  if (hasThree(kind)) {
+    node.c = std::bit_cast<uint32_t>(constants[0]);
+    node.grid = std::bit_cast<uint32_t>(constants[1]);
   }
+  // Results of those that are computed first wait in registers.
+  const std::vector<uint32_t> from = operands(node);
+  for (size_t i = 0; i < from.size(); ++i)
+    node.registers = std::max(node.registers, nodes_[from[i]].registers + uint32_t(i));
   nodes_.push_back(node);
   return {found->second};
 }
@@ -84,14 +88,33 @@ FieldBuilder::Number FieldBuilder::plane(const glm::dvec3& normal) {
   return make(rl::RL_FIELD_PLANE, {0}, {0}, {float(normal.x), float(normal.y), float(normal.z)});
 }
 
+std::vector<uint32_t> FieldBuilder::operands(const Node& node) const {
+  std::vector<uint32_t> of;
+  if (hasOne(node.kind)) of.push_back(node.a);
+  if (hasTwo(node.kind)) of.push_back(node.b);
+  if (hasThree(node.kind)) of.push_back(node.c);
+  std::stable_sort(of.begin(), of.end(), [&](uint32_t x, uint32_t y) {
+    return nodes_[x].registers > nodes_[y].registers;
+  });
+  return of;
+}
+
+FieldBuilder::Number FieldBuilder::held(Number a) {
+  const auto value = valueOf(a);
+  return value ? make(rl::RL_FIELD_LINEAR, {0}, {0}, {0.0f, float(*value), 0.0f}) : a;
+}
+
 FieldBuilder::Number FieldBuilder::binary(uint32_t kind, Number a, Number b) {
-  // A constant that is an operand needs a register.
-  const auto held = [&](Number n) {
-    const auto value = valueOf(n);
-    return value ? make(rl::RL_FIELD_LINEAR, {0}, {0}, {0.0f, float(*value), 0.0f}) : n;
-  };
   a = held(a);
   return make(kind, a, held(b));
+}
+
+FieldBuilder::Number FieldBuilder::grid(uint32_t which, Number x, Number y, Number z) {
+  x = held(x);
+  y = held(y);
+  const std::array<float, 3> more{std::bit_cast<float>(held(z).node), std::bit_cast<float>(which),
+                                  0.0f};
+  return make(rl::RL_FIELD_GRID, x, y, more);
 }
 
 FieldBuilder::Number FieldBuilder::add(Number a, Number b) {
@@ -176,24 +199,13 @@ FieldProgram FieldBuilder::program(Number result, std::vector<TextSpan>* spans) 
       continue;
     }
     state[at] = 1;
-    if (hasTwo(node.kind)) {
-      const bool isFirstHarder = nodes_[node.a].registers >= nodes_[node.b].registers;
-      for (const uint32_t child :
-           {isFirstHarder ? node.b : node.a, isFirstHarder ? node.a : node.b})
-        if (state[child] == 0) stack.push_back(child);
-    } else if (hasOne(node.kind) && state[node.a] == 0) {
-      stack.push_back(node.a);
-    }
+    const std::vector<uint32_t> children = operands(node);
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      if (state[*child] == 0) stack.push_back(*child);
   }
   if (order.size() > kMostInstructions)
     failInput(fmt::format("{} operations: at most {}", order.size(), kMostInstructions));
   std::vector<uint32_t> uses(nodes_.size(), 0);
-  const auto operands = [&](const Node& node) {
-    std::vector<uint32_t> of;
-    if (hasOne(node.kind)) of.push_back(node.a);
-    if (hasTwo(node.kind)) of.push_back(node.b);
-    return of;
-  };
   for (const uint32_t at : order)
     for (const uint32_t operand : operands(nodes_[at])) ++uses[operand];
   std::vector<uint32_t> registerOf(nodes_.size(), 0), free;
@@ -205,6 +217,10 @@ FieldProgram FieldBuilder::program(Number result, std::vector<TextSpan>* spans) 
     FieldInstruction i{node.kind, 0, 0, 0, node.constants};
     if (hasOne(node.kind)) i.a = registerOf[node.a];
     if (hasTwo(node.kind)) i.b = registerOf[node.b];
+    if (hasThree(node.kind)) {
+      i.c = registerOf[node.c];
+      i.grid = node.grid;
+    }
     for (const uint32_t operand : operands(node))
       if (--uses[operand] == 0 && operand > 2) free.push_back(registerOf[operand]);
     if (free.empty())

@@ -37,6 +37,8 @@ class FieldBuilder {
   // kind: an operation of one argument.
   Number apply(uint32_t kind, Number a);
   Number power(Number a, int exponent);
+  // A grid of the program at a place.
+  Number grid(uint32_t which, Number x, Number y, Number z);
 
   // The text that operations are made from until the next call.
   void from(TextSpan span) { span_ = span; }
@@ -53,9 +55,14 @@ class FieldBuilder {
     std::optional<double> value{};
     TextSpan span{};
     uint32_t registers = 1;  // about so many are needed to compute it
+    uint32_t c = 0, grid = 0;
   };
   Number make(uint32_t kind, Number a, Number b, const std::array<float, 3>& constants = {});
   Number binary(uint32_t kind, Number a, Number b);
+  // A number in a register: constants are made instructions.
+  Number held(Number a);
+  // Nodes that a node is computed from, the one that needs most registers first.
+  std::vector<uint32_t> operands(const Node& node) const;
 
   std::vector<Node> nodes_;
   std::map<std::array<uint32_t, 6>, uint32_t> known_;

@@ -147,8 +147,11 @@ double fieldValue(const FieldInstruction& i, double a, double b, const glm::dvec
 double FieldProgram::at(const glm::dvec3& p) const {
   std::array<double, rl::RL_FIELD_REGISTERS> regs{p.x, p.y, p.z};
   double v = p.x;
-  for (const FieldInstruction& i : instructions)
-    v = regs[i.to] = fieldValue(i, regs[i.a], regs[i.b], p);
+  for (const FieldInstruction& i : instructions) {
+    v = i.kind == rl::RL_FIELD_GRID ? grids[i.grid].at({regs[i.a], regs[i.b], regs[i.c]})
+                                    : fieldValue(i, regs[i.a], regs[i.b], p);
+    regs[i.to] = v;
+  }
   return v;
 }
 
@@ -173,7 +176,11 @@ FieldRange FieldProgram::over(const glm::dvec3& from, const glm::dvec3& to,
     const FieldInstruction& i = instructions[n];
     const FieldRange a = regs[i.a], b = regs[i.b];
     if (refuses && refuses(n, a)) return {-kInfinity, kInfinity};
-    v = regs[i.to] = bounded(i, a, b, place);
+    const FieldRange c = regs[i.c];
+    v = i.kind == rl::RL_FIELD_GRID
+            ? grids[i.grid].over({a.low, b.low, c.low}, {a.high, b.high, c.high})
+            : bounded(i, a, b, place);
+    regs[i.to] = v;
   }
   return v;
 }
@@ -184,10 +191,24 @@ std::vector<uint32_t> fieldWords(const FieldProgram& program) {
   std::vector<uint32_t> words{
       bits(low.x),  bits(low.y),  bits(low.z),  static_cast<uint32_t>(program.instructions.size()),
       bits(high.x), bits(high.y), bits(high.z), program.isClosed ? 1u : 0u};
+  // Grids stand behind the instructions, which say where.
+  std::vector<uint32_t> places;
+  size_t place = program.instructions.size();
+  for (const FieldGrid& grid : program.grids) {
+    places.push_back(static_cast<uint32_t>(place));
+    place += grid.size() / 4;
+  }
   for (const FieldInstruction& i : program.instructions) {
     words.push_back(i.kind | i.to << 8 | i.a << 16 | i.b << 24);
-    for (const float constant : i.constants) words.push_back(bits(constant));
+    if (i.kind == rl::RL_FIELD_GRID) {
+      words.insert(words.end(), {i.c, places[i.grid], 0u});
+    } else {
+      for (const float constant : i.constants) words.push_back(bits(constant));
+    }
   }
+  words.reserve(4 * (rl::RL_FIELD_HEADER + place));
+  for (const FieldGrid& grid : program.grids)
+    words.insert(words.end(), grid.words(), grid.words() + grid.size());
   return words;
 }
 
@@ -200,11 +221,19 @@ FieldProgram fieldProgram(const std::vector<uint32_t>& words) {
   for (size_t i = 0; i < words.at(3); ++i) {
     const size_t at = 4 * (rl::RL_FIELD_HEADER + i);
     const uint32_t head = words.at(at);
-    program.instructions.push_back({head & 255u,
-                                    head >> 8 & 255u,
-                                    head >> 16 & 255u,
-                                    head >> 24,
-                                    {number(at + 1), number(at + 2), number(at + 3)}});
+    FieldInstruction made{head & 255u, head >> 8 & 255u, head >> 16 & 255u, head >> 24, {}};
+    if (made.kind == rl::RL_FIELD_GRID) {
+      const uint32_t* grid = words.data() + 4 * (rl::RL_FIELD_HEADER + words.at(at + 2));
+      made.c = words.at(at + 1);
+      made.grid = static_cast<uint32_t>(
+          std::find_if(program.grids.begin(), program.grids.end(),
+                       [&](const FieldGrid& known) { return known.words() == grid; }) -
+          program.grids.begin());
+      if (made.grid == program.grids.size()) program.grids.emplace_back(grid);
+    } else {
+      made.constants = {number(at + 1), number(at + 2), number(at + 3)};
+    }
+    program.instructions.push_back(made);
   }
   return program;
 }

@@ -11,26 +11,26 @@
 #include <vector>
 
 #include "core/geometry/field/field.h"
+#include "core/scene/field/grid.h"
+#include "core/scene/field/interval.h"
 
 namespace restlab {
 
 struct FieldInstruction {
   uint32_t kind = 0, to = 0, a = 0, b = 0;
   std::array<float, 3> constants{};
+  uint32_t c = 0, grid = 0;  // of RL_FIELD_GRID: its third place, and which grid
 };
 
-// Result of one instruction, of its arguments or of the place p.
+// Result of one instruction but RL_FIELD_GRID, of its arguments or of the place p.
 double fieldValue(const FieldInstruction& i, double a, double b, const glm::dvec3& p);
-
-struct FieldRange {
-  double low = 0.0, high = 0.0;
-};
 
 // A function of the place, above 0 outside of the surface, in a box that cuts it off.
 struct FieldProgram {
   glm::vec3 low{0.0f}, high{0.0f};
   bool isClosed = false;
   std::vector<FieldInstruction> instructions;
+  std::vector<FieldGrid> grids;
 
   double at(const glm::dvec3& p) const;
   glm::dvec3 gradientAt(const glm::dvec3& p) const;
@@ -40,7 +40,7 @@ struct FieldProgram {
   FieldRange over(const glm::dvec3& from, const glm::dvec3& to, const Check& refuses = {}) const;
 };
 
-// As words of a shape, and back.
+// As words of a shape, and back; grids of the result refer to the words.
 std::vector<uint32_t> fieldWords(const FieldProgram& program);
 FieldProgram fieldProgram(const std::vector<uint32_t>& words);
 

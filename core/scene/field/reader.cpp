@@ -71,6 +71,18 @@ std::string FieldReader::name() {
   return word;
 }
 
+std::string FieldReader::quoted() {
+  const size_t begin = at_;
+  const char quote = next();
+  if (quote != '\'' && quote != '"') fail(begin, "a name between ' and ' is missing");
+  const size_t end = text_.find(quote, begin + 1);
+  if (end == std::string_view::npos)
+    fail(begin, fmt::format("the {} that ends it is missing", quote));
+  std::string word(text_.substr(begin + 1, end - begin - 1));
+  moveTo(end + 1);
+  return word;
+}
+
 void FieldReader::fail(size_t place, const std::string& message) const {
   std::string rest = "the end";
   if (place < text_.size()) rest = fmt::format("'{}'", spanText(text_, {place, text_.size()}));

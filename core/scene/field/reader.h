@@ -23,6 +23,8 @@ class FieldReader {
   bool isAtName() const;
   double number();
   std::string name();
+  // Text between two ' or two ".
+  std::string quoted();
   // The span from a place to what was read last.
   TextSpan since(size_t begin) const { return {begin, end_}; }
 

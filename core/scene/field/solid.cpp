@@ -78,6 +78,8 @@ class Distances {
         return repeated(solid, at);
       case SolidKind::twist:
         return twisted(solid, at);
+      case SolidKind::grid:
+        return f_.grid(numberOf(*solid.grid), axis(at, 0), axis(at, 1), axis(at, 2));
       case SolidKind::displace:
         break;
     }
@@ -86,6 +88,8 @@ class Distances {
       waves = f_.multiply(waves, apply(rl::RL_FIELD_SIN, f_.linear(axis(at, c), n[1], 0.0)));
     return f_.add(of(solid.parts[0], at), waves);
   }
+
+  const std::vector<FieldGrid>& grids() const { return grids_; }
 
  private:
   Number plus(Number a, double b) { return f_.linear(a, 1.0, b); }
@@ -186,13 +190,22 @@ class Distances {
     return of(solid.parts[0], turned);
   }
 
+  uint32_t numberOf(const FieldGrid& grid) {
+    for (size_t i = 0; i < grids_.size(); ++i)
+      if (grids_[i].words() == grid.words()) return uint32_t(i);
+    grids_.push_back(grid);
+    return uint32_t(grids_.size() - 1);
+  }
+
   FieldBuilder& f_;
+  std::vector<FieldGrid> grids_;
 };
 
 // Around the solid with room for rounding.
 std::array<glm::vec3, 2> boxFor(const Solid& solid) {
   const std::optional<SolidBox> bounds = boundsOf(solid);
   if (!bounds) failInput("the solid has no end: give a 'box' that cuts it off");
+  if (!(bounds->low.x <= bounds->high.x)) failInput("no sample of a grid is 0 or below");
   const glm::dvec3 size = glm::max(bounds->high - bounds->low, glm::dvec3(0.0));
   const glm::dvec3 far = glm::max(glm::abs(bounds->low), glm::abs(bounds->high));
   const double margin =
@@ -202,13 +215,15 @@ std::array<glm::vec3, 2> boxFor(const Solid& solid) {
 
 }  // namespace
 
-FieldProgram readSolid(const std::string& text,
-                       const std::optional<std::array<glm::vec3, 2>>& box) {
-  const Solid solid = readSolidTree(text);
+FieldProgram readSolid(const std::string& text, const std::optional<std::array<glm::vec3, 2>>& box,
+                       const GridFiles& files) {
+  const Solid solid = readSolidTree(text, files);
   FieldBuilder builder;
   Place place;
   for (uint32_t c = 0; c < 3; ++c) place.base[c] = builder.coordinate(c);
-  FieldProgram program = builder.program(Distances(builder).of(solid, place));
+  Distances distances(builder);
+  FieldProgram program = builder.program(distances.of(solid, place));
+  program.grids = distances.grids();
   const std::array<glm::vec3, 2> within = box ? *box : boxFor(solid);
   program.low = within[0];
   program.high = within[1];

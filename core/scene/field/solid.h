@@ -7,12 +7,14 @@
 #include <string>
 
 #include "core/scene/field/program.h"
+#include "core/scene/field/solid_tree.h"
 
 namespace restlab {
 
 // Without a box it follows from the solids. Throws Error (badInput) without a file: the place in
 // the text, what is wrong.
 FieldProgram readSolid(const std::string& text,
-                       const std::optional<std::array<glm::vec3, 2>>& box = std::nullopt);
+                       const std::optional<std::array<glm::vec3, 2>>& box = std::nullopt,
+                       const GridFiles& files = {});
 
 }  // namespace restlab

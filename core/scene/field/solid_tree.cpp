@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "core/base/error.h"
 
@@ -24,6 +25,7 @@ struct SolidForm {
   std::vector<SolidNumber> numbers;
   size_t leastParts = 0;
   size_t mostParts = 0;
+  bool hasFile = false;
 };
 
 constexpr size_t kMany = 64;
@@ -50,12 +52,14 @@ const std::vector<SolidForm>& solidForms() {
       {SolidKind::scale, "scale", {{"factor", true}}, 1, 1},
       {SolidKind::repeat, "repeat", {{"x"}, {"y"}, {"z"}}, 1, 1},
       {SolidKind::twist, "twist", {{"degrees"}}, 1, 1},
-      {SolidKind::displace, "displace", {{"height"}, {"frequency", true}}, 1, 1}};
+      {SolidKind::displace, "displace", {{"height"}, {"frequency", true}}, 1, 1},
+      {SolidKind::grid, "grid", {}, 0, 0, true}};
   return kAll;
 }
 
 std::string usageOf(const SolidForm& form) {
   std::vector<std::string> words;
+  if (form.hasFile) words.emplace_back("'FILE.vol'");
   for (const SolidNumber& number : form.numbers) words.emplace_back(number.name);
   if (form.mostParts > 0) words.emplace_back("SOLID");
   if (form.mostParts > 1) words.emplace_back("SOLID, ...");
@@ -64,7 +68,7 @@ std::string usageOf(const SolidForm& form) {
 
 class Tree {
  public:
-  explicit Tree(const std::string& text) : reader_(text) {}
+  Tree(const std::string& text, const GridFiles& files) : reader_(text), files_(files) {}
 
   Solid read() {
     Solid all = solid();
@@ -108,6 +112,7 @@ class Tree {
     Solid made;
     made.kind = form.kind;
     reader_.expect('(');
+    if (form.hasFile) made.grid = gridFile();
     for (const SolidNumber& wanted : form.numbers) {
       if (&wanted != form.numbers.data()) reader_.expect(',');
       made.numbers.push_back(number(form, wanted));
@@ -124,6 +129,15 @@ class Tree {
     return made;
   }
 
+  std::shared_ptr<const FieldGrid> gridFile() {
+    const size_t begin = reader_.place();
+    const std::string name = reader_.quoted();
+    if (!files_) reader_.fail(begin, "no files are read here");
+    auto& grid = grids_[name];
+    if (!grid) grid = std::make_shared<const FieldGrid>(files_(name));
+    return grid;
+  }
+
   void check(const Solid& made, size_t begin) const {
     const std::vector<double>& n = made.numbers;
     const bool hasAxis = made.kind == SolidKind::plane || made.kind == SolidKind::rotate;
@@ -136,6 +150,8 @@ class Tree {
   }
 
   FieldReader reader_;
+  const GridFiles& files_;
+  std::map<std::string, std::shared_ptr<const FieldGrid>> grids_;
 };
 
 SolidBox grown(SolidBox box, double by) {
@@ -185,7 +201,9 @@ SolidBox transformed(const SolidBox& box, const glm::dmat4& by) {
 
 }  // namespace
 
-Solid readSolidTree(const std::string& text) { return Tree(text).read(); }
+Solid readSolidTree(const std::string& text, const GridFiles& files) {
+  return Tree(text, files).read();
+}
 
 std::optional<SolidBox> boundsOf(const Solid& solid) {
   const std::vector<double>& n = solid.numbers;
@@ -205,6 +223,8 @@ std::optional<SolidBox> boundsOf(const Solid& solid) {
       return around(n[1], n[1], 0.5 * n[0] + n[1]);
     case SolidKind::cylinder:
       return around(n[1], n[1], 0.5 * n[0]);
+    case SolidKind::grid:
+      return SolidBox{solid.grid->insideLow(), solid.grid->insideHigh()};
     case SolidKind::round:
       return grown(*part, n[0]);
     case SolidKind::shell:

@@ -1,10 +1,13 @@
 // The tree of a solid as it is written.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/scene/field/grid.h"
 #include "core/scene/field/reader.h"
 
 namespace restlab {
@@ -31,6 +34,7 @@ enum class SolidKind {
   repeat,
   twist,
   displace,
+  grid,
 };
 
 struct Solid {
@@ -38,10 +42,15 @@ struct Solid {
   std::vector<double> numbers;
   std::vector<Solid> parts;
   TextSpan span;
+  std::shared_ptr<const FieldGrid> grid{};  // one object a file
 };
 
-// Throws Error (badInput): the place in the text, what is wrong, what would be right.
-Solid readSolidTree(const std::string& text);
+// Reads the grid of a name. Throws Error (badInput).
+using GridFiles = std::function<FieldGrid(const std::string& name)>;
+
+// Throws Error (badInput): the place in the text, what is wrong, what would be right. Without
+// files, trees with grids are refused.
+Solid readSolidTree(const std::string& text, const GridFiles& files = {});
 
 struct SolidBox {
   glm::dvec3 low, high;

@@ -10,27 +10,12 @@
 
 namespace restlab {
 
-NamedFile readNamedFile(const ConfigTable& table, const std::filesystem::path& folder,
-                        Scene& scene) {
-  constexpr uint64_t kMostBytes = uint64_t{1} << 32;
-  mitsuba::Report report;
-  mitsuba::Files files(folder, report);
-  const std::string place = table.place("file");
-  const std::filesystem::path file = files.find(table.getString("file", ""), place);
-  NamedFile named{file.string(), files.read(file, place, kMostBytes)};
-  scene.contentHash = hashBytes(named.bytes.data(), named.bytes.size(), scene.contentHash);
-  return named;
-}
+namespace {
 
-MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
-                          Scene& scene) {
-  const std::string name = table.getString("file", "");
-  const bool isObj = name.ends_with(".obj");
-  if (!isObj && !name.ends_with(".ply"))
-    table.fail("file",
-               fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
-  mitsuba::Report report;
-  const NamedFile file = readNamedFile(table, folder, scene);
+constexpr uint64_t kMostMeshBytes = uint64_t{1} << 32;
+
+MeshGeometry meshOfBytes(const NamedFile& file, mitsuba::Report& report, Scene& scene) {
+  const bool isObj = file.name.ends_with(".obj");
   MeshGeometry mesh = isObj ? mitsuba::readObj(file.bytes, file.name, report)
                             : mitsuba::readPly(file.bytes, file.name, report);
   for (std::string& line : report.warnings()) scene.warnings.push_back(std::move(line));
@@ -39,6 +24,43 @@ MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path&
     for (glm::vec2& uv : mesh.uvs[0]) uv.y = 1.0f - uv.y;
   if (!mesh.normals.empty()) mitsuba::completeNormals(mesh);
   return mesh;
+}
+
+}  // namespace
+
+bool isMeshFile(const std::string& name) {
+  return name.ends_with(".obj") || name.ends_with(".ply");
+}
+
+NamedFile readNamedFile(const std::string& name, const std::string& place, uint64_t mostBytes,
+                        const std::filesystem::path& folder, Scene& scene) {
+  mitsuba::Report report;
+  mitsuba::Files files(folder, report);
+  const std::filesystem::path file = files.find(name, place);
+  NamedFile named{file.string(), files.read(file, place, mostBytes)};
+  scene.contentHash = hashBytes(named.bytes.data(), named.bytes.size(), scene.contentHash);
+  return named;
+}
+
+Scene sceneOfMesh(const std::filesystem::path& file) {
+  Scene scene;
+  mitsuba::Report report;
+  mitsuba::Files files(file.parent_path(), report);
+  const NamedFile named{file.string(), files.read(file, "", kMostMeshBytes)};
+  scene.geometries.push_back(meshOfBytes(named, report, scene));
+  scene.instances.push_back({file.stem().string()});
+  return scene;
+}
+
+MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
+                          Scene& scene) {
+  const std::string name = table.getString("file", "");
+  if (!isMeshFile(name))
+    table.fail("file",
+               fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
+  mitsuba::Report report;
+  return meshOfBytes(readNamedFile(name, table.place("file"), kMostMeshBytes, folder, scene),
+                     report, scene);
 }
 
 namespace {

@@ -96,39 +96,32 @@ ShapePlace placesOf(const ConfigTable& table, const std::vector<SceneCamera>& ca
   return place;
 }
 
-ShapeGeometry shapeWithParameters(const ConfigTable& table, const ShapeInfo& info) {
+MeshGeometry readShape(const ConfigTable& table, const std::filesystem::path& folder,
+                       Scene& scene) {
+  const ShapeInfo& info = readKind(table);
+  if (table.has("file") && !info.readsFile)
+    table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
   ShapeGeometry shape{&info, {}};
   for (const ShapeParameter& p : info.parameters)
     shape.values.push_back(p.isWhole ? float(table.getInteger(p.name, int64_t(p.fallback),
                                                               int64_t(p.lo), int64_t(p.hi)))
                                      : float(table.getNumber(p.name, p.fallback, p.lo, p.hi)));
-  return shape;
-}
-
-MeshGeometry readShape(const ConfigTable& table, const Scene& scene) {
-  const ShapeInfo& info = readKind(table);
-  ShapeGeometry shape = shapeWithParameters(table, info);
   if (info.readMesh) {
     if (std::optional<MeshGeometry> mesh = info.readMesh(table, placesOf(table, scene.cameras))) {
       mesh->name = info.name;
       return std::move(*mesh);
     }
   }
-  if (info.read) info.read(table, shape);
+  const auto files = [&](const std::string& name, const std::string& place, uint64_t mostBytes) {
+    return readNamedFile(name, place, mostBytes, folder, scene);
+  };
+  if (info.read) info.read(table, files, shape);
   return makeShape(std::move(shape), info.name);
 }
 
 MeshGeometry readGeometry(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
-  if (!table.has("file")) return readShape(table, scene);
-  if (table.has("kind")) {
-    const ShapeInfo& info = readKind(table);
-    if (!info.readFile) table.fail("kind", "'kind' beside 'file': a shape or a mesh, one of them");
-    ShapeGeometry shape = shapeWithParameters(table, info);
-    const NamedFile file = readNamedFile(table, folder, scene);
-    info.readFile(table, file.name, file.bytes, shape);
-    return makeShape(std::move(shape), info.name);
-  }
+  if (table.has("kind") || !table.has("file")) return readShape(table, folder, scene);
   MeshGeometry mesh = readMeshFile(table, folder, scene);
   readNormals(table, mesh);
   mesh.name = std::filesystem::path(table.getString("file", "")).stem().string();

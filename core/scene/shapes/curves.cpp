@@ -53,6 +53,8 @@ Strands wires() {
           {4, 2, 2}};
 }
 
+constexpr uint64_t kMostStrandBytes = uint64_t{1} << 32;
+
 }  // namespace
 
 ShapeInfo curvesShape() {
@@ -62,16 +64,18 @@ ShapeInfo curvesShape() {
   info.examples = {
       exampleOf("curves_coil", coil()), exampleOf("curves_wires", wires()),
       exampleOf("curves_sphere", {StrandBasis::linear, {{0, 0, 0, 1}, {0, 0, 0, 1}}, {2}})};
-  info.read = [](const ConfigTable& table, ShapeGeometry& shape) {
-    const Strands strands = readStrands(table, readBasis(table));
-    takeStrands(table, table.place("points"), strands, shape);
-  };
-  info.readFile = [](const ConfigTable& table, const std::string& file,
-                     const std::vector<uint8_t>& bytes, ShapeGeometry& shape) {
+  info.readsFile = true;
+  info.read = [](const ConfigTable& table, const ShapeFiles& files, ShapeGeometry& shape) {
+    const StrandBasis basis = readBasis(table);
+    if (!table.has("file")) {
+      takeStrands(table, table.place("points"), readStrands(table, basis), shape);
+      return;
+    }
     if (table.has("points"))
       table.fail("points", "'points' beside 'file': the points are here or there, not both");
-    const Strands strands = readStrandText(bytes, file, readBasis(table));
-    takeStrands(table, file, strands, shape);
+    const NamedFile file =
+        files(table.getString("file", ""), table.place("file"), kMostStrandBytes);
+    takeStrands(table, file.name, readStrandText(file.bytes, file.name, basis), shape);
   };
   info.isClosed = [](const ShapeGeometry&) { return true; };
   info.isInside = [](const ShapeGeometry& shape, const glm::dvec3& posL) {

@@ -20,7 +20,7 @@ ShapeInfo implicitShape() {
   info.summary = "the surface where 'expression' of x, y and z is 0, cut off at 'box'";
   info.examples = {example("implicit_sphere", "x^2 + y^2 + z^2 - 1", 1.1f),
                    example("implicit_torus", "(sqrt(x^2 + y^2) - 0.7)^2 + z^2 - 0.0625", 1.0f)};
-  info.read = [](const ConfigTable& table, ShapeGeometry& shape) {
+  info.read = [](const ConfigTable& table, const ShapeFiles&, ShapeGeometry& shape) {
     if (!table.has("expression"))
       table.fail("", "an implicit [[shape]] has no 'expression', as \"x^2 + y^2 + z^2 - 1\"");
     const std::array<glm::vec3, 2> box =

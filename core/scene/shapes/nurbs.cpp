@@ -42,7 +42,7 @@ MeshGeometry standInOf(const ShapeGeometry& shape) {
 ShapeInfo nurbsShape() {
   ShapeInfo info;
   info.summary = "a surface of control points: NURBS, B-splines, Bezier pieces; way = \"exact\"";
-  info.read = [](const ConfigTable& table, ShapeGeometry& shape) {
+  info.read = [](const ConfigTable& table, const ShapeFiles&, ShapeGeometry& shape) {
     const NurbsSurface surface = readNurbs(table);
     shape.words = atPlace(table.place("points"), [&] { return surfaceWords(bezierGrid(surface)); });
     if (standInOf(shape).triangles.empty())

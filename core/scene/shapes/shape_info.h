@@ -37,6 +37,15 @@ struct ShapePlace {
   std::vector<SceneCamera> cameras;  // none: not known yet
 };
 
+struct NamedFile {
+  std::string name;  // for error lines
+  std::vector<uint8_t> bytes;
+};
+
+// Reads a file that a [[shape]] names at `place`, of at most `mostBytes`. Throws Error (badInput).
+using ShapeFiles =
+    std::function<NamedFile(const std::string& name, const std::string& place, uint64_t mostBytes)>;
+
 // One kind of shapeRegistry(). Functions take a shape of that kind with a value for each parameter,
 // within its range.
 struct ShapeInfo {
@@ -61,12 +70,9 @@ struct ShapeInfo {
   std::function<MeshGeometry(const ShapeGeometry& shape)> standIn;
   // Reads the keys of a [[shape]] that are not parameters, into ShapeGeometry::words. Throws Error
   // (badInput). Not set: there are none.
-  std::function<void(const ConfigTable& table, ShapeGeometry& shape)> read{};
-  // The same, where the key 'file' names a file: its bytes, and its name for error lines. Throws
-  // Error (badInput, badUsage). Not set: there are no files of the kind.
-  std::function<void(const ConfigTable& table, const std::string& file,
-                     const std::vector<uint8_t>& bytes, ShapeGeometry& shape)>
-      readFile{};
+  std::function<void(const ConfigTable& table, const ShapeFiles& files, ShapeGeometry& shape)>
+      read{};
+  bool readsFile = false;  // knows the key 'file'
   // Reads a [[shape]] that becomes triangles; nullopt if it is to be met exactly. Throws Error
   // (badUsage). Not set: none does.
   std::function<std::optional<MeshGeometry>(const ConfigTable& table, const ShapePlace& place)>
