@@ -178,7 +178,7 @@ TEST_F(SceneFileShapes, SolidsReadGridsBelowTheirFolder) {
   EXPECT_NE(load(sdf("grid('ball.vol')")).contentHash, ball.contentHash);
   const auto expectError = [&](const std::string& tree, const std::string& part) {
     const std::string line = errorOf(sdf(tree));
-    EXPECT_EQ(line.rfind("x.scene.toml:3:1: 'tree': ", 0), 0u) << line;
+    EXPECT_EQ(line.rfind("x.scene.toml:3:8: 'tree': ", 0), 0u) << line;
     EXPECT_NE(line.find(part), std::string::npos) << line;
   };
   expectError("grid('bell.vol')", "file 'bell.vol' does not exist; did you mean 'ball.vol'?");

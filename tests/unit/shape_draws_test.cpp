@@ -186,8 +186,8 @@ TEST(ShapeLights, RectanglesAreDrawnBySolidAngle) {
   }
 }
 
-// What a receiver sees of the unit disk: cosines to the normal at the near and the far side of it
-// in the direction `turn` (radians, from where the middle lies); false: nothing.
+// Cosines to the normal at the near and the far side of what a receiver sees of the unit disk in
+// the direction `turn` (radians, from where the middle lies); false: nothing.
 bool diskCosines(double away, double z, double turn, std::array<double, 2>& between) {
   const double along = away * std::cos(turn), inside = 1.0 - away * away + along * along;
   if (!(inside > 0.0)) return false;

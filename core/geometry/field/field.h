@@ -90,7 +90,7 @@ struct FieldCell {
 // Bounds over a part of a grid, derivatives a cell.
 struct FieldBounds {
   vec4 valueX;  // least and largest value, of the derivative along x
-  vec4 yz;
+  vec4 rest;    // the same of the derivatives along y and z
 };
 
 RL_NAMESPACE_END

@@ -37,7 +37,7 @@ RL_FN FieldBounds fieldBoundsInCell(RL_IN(FieldCell) c, RL_IN(vec3) from, RL_IN(
   float error = RL_FIELD_GRID_ERROR * max(max(most.x, most.y), max(most.z, most.w));
   FieldBounds b;
   b.valueX = vec4(value.x - error, value.y + error, dx.x - error, dx.y + error);
-  b.yz = vec4(dy.x - error, dy.y + error, dz.x - error, dz.y + error);
+  b.rest = vec4(dy.x - error, dy.y + error, dz.x - error, dz.y + error);
   return b;
 }
 
@@ -48,8 +48,8 @@ RL_FN FieldBounds fieldBlock(uint at) {
   FieldBounds b;
   b.valueX = vec4(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z),
                   uintBitsToFloat(q0.w));
-  b.yz = vec4(uintBitsToFloat(q1.x), uintBitsToFloat(q1.y), uintBitsToFloat(q1.z),
-              uintBitsToFloat(q1.w));
+  b.rest = vec4(uintBitsToFloat(q1.x), uintBitsToFloat(q1.y), uintBitsToFloat(q1.z),
+                uintBitsToFloat(q1.w));
   return b;
 }
 
@@ -57,7 +57,8 @@ RL_FN FieldBounds fieldBoth(RL_IN(FieldBounds) a, RL_IN(FieldBounds) b) {
   FieldBounds all;
   all.valueX = vec4(min(a.valueX.x, b.valueX.x), max(a.valueX.y, b.valueX.y),
                     min(a.valueX.z, b.valueX.z), max(a.valueX.w, b.valueX.w));
-  all.yz = vec4(min(a.yz.x, b.yz.x), max(a.yz.y, b.yz.y), min(a.yz.z, b.yz.z), max(a.yz.w, b.yz.w));
+  all.rest = vec4(min(a.rest.x, b.rest.x), max(a.rest.y, b.rest.y), min(a.rest.z, b.rest.z),
+                  max(a.rest.w, b.rest.w));
   return all;
 }
 
@@ -78,7 +79,7 @@ RL_FN FieldBounds fieldGridBounds(RL_IN(FieldGrid) g, RL_IN(vec3) from, RL_IN(ve
   }
   FieldBounds all;
   all.valueX = vec4(3.0e38f, -3.0e38f, 3.0e38f, -3.0e38f);
-  all.yz = all.valueX;
+  all.rest = all.valueX;
   for (uint z = low.z; z <= high.z; z = z + 1u) {
     for (uint y = low.y; y <= high.y; y = y + 1u) {
       for (uint x = low.x; x <= high.x; x = x + 1u) {
@@ -130,8 +131,8 @@ RL_FN_OUTLINE vec4 fieldGridRange(uint first, RL_IN(vec4) x, RL_IN(vec4) y, RL_I
   high = clamp(high + abs(high) * RL_FIELD_ROUNDING + least, zero, vec3(g.cells));
   FieldBounds b = fieldGridBounds(g, low, high);
   vec2 dx = fieldUnlessBeyond(vec2(b.valueX.z, b.valueX.w), below.x, above.x);
-  vec2 dy = fieldUnlessBeyond(vec2(b.yz.x, b.yz.y), below.y, above.y);
-  vec2 dz = fieldUnlessBeyond(vec2(b.yz.z, b.yz.w), below.z, above.z);
+  vec2 dy = fieldUnlessBeyond(vec2(b.rest.x, b.rest.y), below.y, above.y);
+  vec2 dz = fieldUnlessBeyond(vec2(b.rest.z, b.rest.w), below.z, above.z);
   vec2 v = vec2(b.valueX.x, b.valueX.y);
   vec2 d = fieldProduct(dx * g.scale.x, vec2(x.z, x.w));
   d = fieldSum(d, fieldProduct(dy * g.scale.y, vec2(y.z, y.w)));
