@@ -41,8 +41,9 @@ SampledGrid sampledDistances(const Scene& scene, const DistanceFieldOptions& opt
 
 void makeDistanceField(const DistanceFieldOptions& options) {
   checkOutputs({{"-o", options.output, ".vol"}}, options.request);
+  checkWritable(options.output);
   const std::string& name = options.request.scene;
-  const Scene scene = isMeshFile(name) ? sceneOfMesh(name) : loadScene(name);
+  const Scene scene = isSingleMesh(name) ? sceneOfMesh(name) : loadScene(name);
   for (const std::string& warning : scene.warnings) logWarning(warning);
   for (const std::string& note : scene.notes) logInfo(note);
   logShapes(scene);

@@ -273,7 +273,8 @@ void expectGeneralKernels(const Combination& what) {
   expectParity(what, scenes, kVulkan, kCpuEmbree, kSmall);
   if (what.integrator == "path" &&
       what.denoiser == "none") {  // closures and shapes are the walker's
-    expectParity(what, {"materials", "shapes-file"}, kVulkanSpecialised, kCpuEmbree, kSmall);
+    expectParity(what, {"materials", "shapes-file", "hair?strands=40"}, kVulkanSpecialised,
+                 kCpuEmbree, kSmall);
     expectSameBitsByBothReads(what, "nurbs-file", kVulkanSpecialised);
   }
   if (!isOfEveryPass(what)) return;

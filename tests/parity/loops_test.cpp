@@ -41,6 +41,9 @@ TEST(Loops, ThatADriverEndedAreCounted) {
     EXPECT_EQ(brief.counted, 0u) << device.name();
     const LoopsRun endless = runLoops(device, {1000, 100});
     EXPECT_EQ(endless.counted, endless.wrong) << device.name();
+    // A lavapipe that ends no loops needs no count: these lines would go.
+    const bool isLavapipe = device.name().find("llvmpipe") != std::string::npos;
+    EXPECT_TRUE(!isLavapipe || endless.wrong > 0);
   }
 }
 

@@ -83,7 +83,7 @@ TEST_F(CurveFiles, ErrorsSayWhatIsWrong) {
             "x.scene.toml:1:1: [[shape]] of kind 'curves' has no 'points', as [[x, y, z, radius], "
             "...], and no 'file' of such lines");
   EXPECT_EQ(errorOf("points = [[0, 0, 0, 1], [1, 0, 0, 0]]\n"),
-            "x.scene.toml:3:10: point 1 of 'points': radius 0 is out of range; above 0, at most "
+            "x.scene.toml:3:10: point 1 of 'points': radius 0 is out of range; 1e-15 to "
             "1e+09 expected");
   EXPECT_EQ(errorOf("points = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"),
             "x.scene.toml:3:10: a strand of 2 points: at least 4 expected of basis 'bspline'");
@@ -112,7 +112,7 @@ TEST_F(CurveFiles, ErrorsSayWhatIsWrong) {
   EXPECT_EQ(errorOfText("0 0 0 1\n1 0 x 1\n"), "hair.txt:2: 'x' is not a finite number");
   EXPECT_EQ(errorOfText("0 0 nan 1\n"), "hair.txt:1: 'nan' is not a finite number");
   EXPECT_EQ(errorOfText("0 0 0 -1\n"),
-            "hair.txt:1: radius -1 is out of range; above 0, at most 1e+09 expected");
+            "hair.txt:1: radius -1 is out of range; 1e-15 to 1e+09 expected");
   EXPECT_EQ(errorOfText("0 2e9 0 1\n"),
             "hair.txt:1: coordinate 2e+09 is out of range; -1e+09 to 1e+09 expected");
   EXPECT_EQ(errorOfText("0 0 0 1\n1 0 0 1\n\n2 0 0 1\n\n"),

@@ -128,6 +128,28 @@ TEST(CurvesShape, PointsAndNormalsAreThoseOfTheUnion) {
   EXPECT_GT(compared, 8000);
 }
 
+// Where a small sphere is nearly within a large one, the cone of both is nearly flat.
+TEST(CurvesShape, RaysMeetFlatConesWhereTheyAre) {
+  for (const double tip : {0.01, 0.1, 0.5}) {
+    LocalCurves local({StrandBasis::linear, {{0, 0, 0, 1}, {1.00002 - tip, 0, 0, tip}}, {2}});
+    Inputs inputs(12);
+    double furthest = 0.0;
+    int hits = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      const glm::vec3 dir = inputs.direction();
+      const glm::vec3 target = glm::vec3(1, 0, 0) + 2.0f * float(tip) * inputs.direction();
+      const rl::Ray ray{target - 2.0f * dir, 0.0f, dir, 3e38f};
+      rl::Hit hit{};
+      if (!local.d->shapeIntersect(local.shape, ray, hit)) continue;
+      ++hits;
+      const glm::dvec3 at = glm::dvec3(ray.origin) + double(hit.t) * glm::dvec3(ray.dir);
+      furthest = std::max(furthest, std::abs(local.distance(at)));
+    }
+    EXPECT_GT(hits, 30'000);
+    EXPECT_LT(furthest, 5e-6) << tip;
+  }
+}
+
 glm::dvec4 splineAt(StrandBasis basis, const std::vector<glm::dvec4>& p, size_t i, double t) {
   const double t2 = t * t, t3 = t2 * t;
   if (basis == StrandBasis::bspline)

@@ -69,8 +69,8 @@ RL_FN void curvesAddSide(RL_IN(CurvePiece) p, RL_IN(vec3) base, RL_IN(vec3) dir,
   }
   if (!(root >= 0.0f)) return;
   float q = -(b + (b < 0.0f ? -sqrt(root) : sqrt(root)));
-  float low = (p.sine - 1.0e-3f) * p.startRadius;
-  float high = p.axisLength + (p.sine + 1.0e-3f) * p.endRadius;
+  float low = (p.sine - 1.0e-3f * p.cosine) * p.startRadius;
+  float high = p.axisLength + (p.sine + 1.0e-3f * p.cosine) * p.endRadius;
   for (uint i = 0u; i < 2u; i = i + 1u) {
     float t = i == 0u ? q / a : c / q;
     float at = y + t * dirAxis;

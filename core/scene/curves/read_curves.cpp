@@ -1,5 +1,6 @@
 #include "core/scene/curves/read_curves.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <charconv>

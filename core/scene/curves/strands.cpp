@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 
 namespace restlab {
 
@@ -14,6 +15,8 @@ namespace {
 
 // Rays tell the sides of a surface apart by 2^-19 of its coordinates (RL_HIT_ERROR).
 constexpr double kThinnest = 0x1p-16;
+// Squares of radii must be numbers that single precision holds well.
+constexpr double kLeastRadius = 1e-15;
 // Longer pieces have coarse boxes, and rounding errors that count against their radius.
 constexpr double kLongest = 256.0;
 
@@ -94,6 +97,9 @@ void addPiece(const glm::dvec4& from, const glm::dvec4& to, const glm::dvec2& v,
   StrandPiece piece{glm::vec4(from), glm::vec4(to), {}, glm::vec2(v)};
   for (const glm::vec4& p : {piece.start, piece.end}) {
     const double far = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (!(double(p.w) >= kLeastRadius))
+      failInput(fmt::format("strand {} has a radius of {:.3g}; {:g} expected at least", strand, p.w,
+                            kLeastRadius));
     if (!(double(p.w) > kThinnest * far))
       failInput(fmt::format(
           "strand {} is too thin for single precision at ({:.6g}, {:.6g}, {:.6g}): its radius "
@@ -142,14 +148,17 @@ std::string faultOfPoint(const glm::dvec4& point) {
       return fmt::format("coordinate {:g} is out of range; {:g} to {:g} expected", point[i],
                          -kMostStrandCoordinate, kMostStrandCoordinate);
   }
-  if (!(point.w > 0.0 && point.w <= kMostStrandCoordinate))
-    return fmt::format("radius {:g} is out of range; above 0, at most {:g} expected", point.w,
+  if (!(point.w >= kLeastRadius && point.w <= kMostStrandCoordinate))
+    return fmt::format("radius {:g} is out of range; {:g} to {:g} expected", point.w, kLeastRadius,
                        kMostStrandCoordinate);
   return "";
 }
 
 std::vector<StrandPiece> cutStrands(const Strands& strands, double error) {
   std::vector<StrandPiece> pieces;
+  static thread_local MemoryGuard memory;
+  // A piece itself, twice in a vector that grows; its words and boxes; triangles that stand in.
+  constexpr uint64_t kBytes = 1024;
   double total = 0.0;
   const glm::dvec4* points = strands.points.data();
   for (size_t strand = 0; strand < strands.counts.size(); ++strand) {
@@ -165,6 +174,7 @@ std::vector<StrandPiece> cutStrands(const Strands& strands, double error) {
             fmt::format("the strands need more than {} pieces; fewer points or a larger "
                         "'error' expected",
                         kMostStrandPieces));
+      memory.take("strands", kBytes * uint64_t(steps));
       glm::dvec4 from = segments[k][0];
       for (double i = 1.0; i <= steps; i += 1.0) {
         const glm::dvec4 to = i == steps ? segments[k][3] : pointAt(segments[k], i / steps);

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/scene/distance/closest_triangle.h"
 #include "core/scene/distance/winding.h"
+#include "core/scene/field/grid_file.h"
 
 namespace restlab {
 
@@ -32,15 +33,17 @@ SamplePlaces placesAround(const ClosedTriangles& surface, int cells) {
 
 SampledGrid distanceGrid(const ClosedTriangles& surface, int cells) {
   const SamplePlaces places = placesAround(surface, cells);
+  SampledGrid grid;
+  grid.samples = places.samples;
+  grid.low = glm::dvec3(glm::vec3(places.low));
+  grid.high = glm::dvec3(glm::vec3(places.low + places.cell * glm::dvec3(places.samples - 1)));
+  if (const std::string fault = faultOfGridBox(grid); !fault.empty())
+    failInput("no grid can hold its distances: " + fault + "; move or scale it");
   const std::vector<uint8_t> inside = insideSamples(surface, places);
   if (std::find(inside.begin(), inside.end(), 1) == inside.end())
     failInput("no sample is inside of the surface: it is thinner than a cell; more cells expected");
   const ClosestTriangle closest(surface);
   const glm::ivec3 n = places.samples;
-  SampledGrid grid;
-  grid.samples = n;
-  grid.low = glm::dvec3(glm::vec3(places.low));
-  grid.high = glm::dvec3(glm::vec3(places.low + places.cell * glm::dvec3(n - 1)));
   grid.values.resize(inside.size());
   tbb::parallel_for(0, n.y * n.z, [&](int row) {
     const int y = row % n.y, z = row / n.y;

@@ -3,9 +3,14 @@
 // corner, as if it were moved aside by amounts that are smaller than any number.
 #include "core/scene/distance/winding.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "core/base/error.h"
+#include "core/base/memory.h"
 
 namespace restlab {
 
@@ -71,7 +76,7 @@ class WindingLines {
         add(t, places_.at(1, y), places_.at(2, z), line(y, z));
   }
 
-  void add(const glm::uvec3& t, double y, double z, std::vector<Crossing>& to) const {
+  void add(const glm::uvec3& t, double y, double z, std::vector<Crossing>& to) {
     const int side = sideOfEdge(surface_, t.x, t.y, y, z);
     if (sideOfEdge(surface_, t.y, t.z, y, z) != side ||
         sideOfEdge(surface_, t.z, t.x, y, z) != side)
@@ -83,10 +88,11 @@ class WindingLines {
     double x = a.x - (n.y * (y - a.y) + n.z * (z - a.z)) / n.x;
     if (!std::isfinite(x)) x = a.x;
     x = std::clamp(x, std::min({a.x, a.x + u.x, a.x + v.x}), std::max({a.x, a.x + u.x, a.x + v.x}));
+    memory_.take("crossings of the surface", 2 * sizeof(Crossing));  // a vector that grows
     to.push_back({x, side});
   }
 
-  void mark(std::vector<Crossing>& line, int y, int z, std::vector<uint8_t>& result) const {
+  void mark(std::vector<Crossing>& line, int y, int z, std::vector<uint8_t>& result) {
     // Rounding may have told a line a corner from two sides; then a line beside it is asked.
     for (int tries = 1; sum(line) != 0 && tries < 20; ++tries) {
       const double aside = 1e-9 * double(tries) * places_.cell;
@@ -95,6 +101,11 @@ class WindingLines {
         add(t, places_.at(1, y) + aside, places_.at(2, z) + 0.7 * aside, again);
       line = std::move(again);
     }
+    if (sum(line) != 0)
+      failInput(
+          fmt::format("its inside is not found along x at y = {:g}, z = {:g}; a surface "
+                      "without triangles that are nearly lines expected",
+                      places_.at(1, y), places_.at(2, z)));
     std::sort(line.begin(), line.end(),
               [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
     int winding = 0;
@@ -114,6 +125,7 @@ class WindingLines {
   const ClosedTriangles& surface_;
   const SamplePlaces& places_;
   std::vector<std::vector<Crossing>> crossings_;
+  MemoryGuard memory_;
 };
 
 }  // namespace

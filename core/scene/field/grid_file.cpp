@@ -74,7 +74,7 @@ class GridReader {
     if (bytes_.size() != size)
       fail(fmt::format("{} bytes; {} expected for {} x {} x {} samples", bytes_.size(), size,
                        grid.samples.x, grid.samples.y, grid.samples.z));
-    checkBox(grid);
+    if (const std::string fault = faultOfGridBox(grid); !fault.empty()) fail(fault);
     grid.values.resize(count);
     std::memcpy(grid.values.data(), bytes_.data() + kGridHeaderBytes, 4 * count);
     for (uint64_t i = 0; i < count; ++i)
@@ -84,27 +84,27 @@ class GridReader {
     return grid;
   }
 
-  // Cells must be wide enough for places to be told apart.
-  void checkBox(const SampledGrid& grid) const {
-    const glm::dvec3 cell = (grid.high - grid.low) / glm::dvec3(grid.samples - 1);
-    for (int c = 0; c < 3; ++c) {
-      const double far = std::max(std::abs(grid.low[c]), std::abs(grid.high[c]));
-      if (!(far <= double(kFurthest)))
-        fail(fmt::format("its box reaches from {:g} to {:g} along {}; at most {:g} expected",
-                         grid.low[c], grid.high[c], "xyz"[c], kFurthest));
-      if (!(cell[c] > 1e-5 * far) || !(cell[c] > 1e-9))
-        fail(
-            fmt::format("its cells are {:g} wide along {}, from {:g} to {:g}; 1/100000 of the "
-                        "coordinates expected at least",
-                        cell[c], "xyz"[c], grid.low[c], grid.high[c]));
-    }
-  }
-
   const std::vector<uint8_t>& bytes_;
   const std::string& file_;
 };
 
 }  // namespace
+
+std::string faultOfGridBox(const SampledGrid& grid) {
+  const glm::dvec3 cell = (grid.high - grid.low) / glm::dvec3(grid.samples - 1);
+  for (int c = 0; c < 3; ++c) {
+    const double far = std::max(std::abs(grid.low[c]), std::abs(grid.high[c]));
+    if (!(far <= double(kFurthest)))
+      return fmt::format("its box reaches from {:g} to {:g} along {}; at most {:g} expected",
+                         grid.low[c], grid.high[c], "xyz"[c], kFurthest);
+    if (!(cell[c] > 1e-5 * far) || !(cell[c] > 1e-9))
+      return fmt::format(
+          "its cells are {:g} wide along {}, from {:g} to {:g}; 1/100000 of the "
+          "coordinates expected at least",
+          cell[c], "xyz"[c], grid.low[c], grid.high[c]);
+  }
+  return "";
+}
 
 SampledGrid readGrid(const std::vector<uint8_t>& bytes, const std::string& file) {
   return GridReader(bytes, file).read();

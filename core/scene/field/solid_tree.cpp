@@ -134,7 +134,13 @@ class Tree {
     const std::string name = reader_.quoted();
     if (!files_) reader_.fail(begin, "no files are read here");
     auto& grid = grids_[name];
-    if (!grid) grid = std::make_shared<const FieldGrid>(files_(name));
+    if (grid) return grid;
+    try {
+      grid = std::make_shared<const FieldGrid>(files_(name));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::badInput) throw;
+      reader_.fail(begin, error.what());
+    }
     return grid;
   }
 

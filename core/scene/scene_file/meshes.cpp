@@ -12,7 +12,7 @@ namespace restlab {
 
 namespace {
 
-constexpr uint64_t kMostMeshBytes = uint64_t{1} << 32;
+constexpr uint64_t kMostNamedMeshBytes = uint64_t{1} << 32;
 
 MeshGeometry meshOfBytes(const NamedFile& file, mitsuba::Report& report, Scene& scene) {
   const bool isObj = file.name.ends_with(".obj");
@@ -28,7 +28,7 @@ MeshGeometry meshOfBytes(const NamedFile& file, mitsuba::Report& report, Scene& 
 
 }  // namespace
 
-bool isMeshFile(const std::string& name) {
+bool isSingleMesh(const std::string& name) {
   return name.ends_with(".obj") || name.ends_with(".ply");
 }
 
@@ -46,7 +46,7 @@ Scene sceneOfMesh(const std::filesystem::path& file) {
   Scene scene;
   mitsuba::Report report;
   mitsuba::Files files(file.parent_path(), report);
-  const NamedFile named{file.string(), files.read(file, "", kMostMeshBytes)};
+  const NamedFile named{file.string(), files.read(file, "", kMostNamedMeshBytes)};
   scene.geometries.push_back(meshOfBytes(named, report, scene));
   scene.instances.push_back({file.stem().string()});
   return scene;
@@ -55,11 +55,11 @@ Scene sceneOfMesh(const std::filesystem::path& file) {
 MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path& folder,
                           Scene& scene) {
   const std::string name = table.getString("file", "");
-  if (!isMeshFile(name))
+  if (!isSingleMesh(name))
     table.fail("file",
                fmt::format("'{}' is no mesh that is read; an .obj or a .ply expected", name));
   mitsuba::Report report;
-  return meshOfBytes(readNamedFile(name, table.place("file"), kMostMeshBytes, folder, scene),
+  return meshOfBytes(readNamedFile(name, table.place("file"), kMostNamedMeshBytes, folder, scene),
                      report, scene);
 }
 

@@ -19,7 +19,7 @@ MeshGeometry readMeshFile(const ConfigTable& table, const std::filesystem::path&
 
 // Reads an .obj or a .ply alone. Throws Error (badInput).
 Scene sceneOfMesh(const std::filesystem::path& file);
-bool isMeshFile(const std::string& name);
+bool isSingleMesh(const std::string& name);
 
 // Reads a file that is named at `place`, below `folder`; adds it to the content hash of the scene.
 // Throws Error (badInput).

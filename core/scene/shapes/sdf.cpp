@@ -40,7 +40,7 @@ ShapeInfo sdfShape() {
     const auto box = readFieldBox(table);
     const std::string text = table.getString("tree", "");
     const auto grid = [&](const std::string& name) {
-      return FieldGrid(readGrid(files(name, name, kMostGridBytes).bytes, name));
+      return FieldGrid(readGrid(files(name, "grid", kMostGridBytes).bytes, name));
     };
     readField(table, "tree", shape, [&] { return readSolid(text, box, grid); });
   };
