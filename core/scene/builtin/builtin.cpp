@@ -171,7 +171,7 @@ const std::vector<OwnParameter>& ownParameters() {
                         "how the ball is represented: the same image")},
       {"implicit", choiceOf("surface", builtin::implicitSurfaces(), "the function")},
       {"sdf", choiceOf("solid", builtin::solids(), "the solid")},
-      {"hair", {"strands", 2000.0, 1.0, 1e5, "of the same radius, whatever their number"}},
+      {"hair", {"strands", 2000.0, 1.0, 2e4, "of the same radius, whatever their number"}},
       {"hair", choiceOf(kRepresentationParameter, {"shape", "mesh"},
                         "strands as themselves, or as tubes of triangles")},
       {"teapot", choiceOf(kRepresentationParameter, {"mesh", "exact"},
