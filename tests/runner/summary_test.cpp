@@ -172,6 +172,24 @@ TEST_F(SummaryTest, UnbiasedRowsAreDoubtedWhereTheyContradictThemselves) {
   EXPECT_FALSE(setEnergies(1.3000, 1.3001, 1.3002).flags.empty());
 }
 
+TEST_F(SummaryTest, NoBiasBelowTheErrorOfAnExactImage) {
+  suite_.methods[1].session.mode = "unbiased";
+  const auto flagsAt = [&](double difference) {
+    block_.methods[1] = {};
+    for (uint32_t r = 0; r < 3; ++r) {
+      RunResult run = makeRun(r, difference * difference, {11.0, 22.0});
+      run.measured.energyRatio = 1.0 - difference;
+      addRun(1, std::move(run), float(1.0 - difference));
+    }
+    return summarise(suite_, block_)[1].flags.size();
+  };
+  const double below = std::exp2(-17.0), above = std::exp2(-16.0);  // 7.6e-6 and 1.5e-5
+  EXPECT_GT(flagsAt(below), 0u) << "a rendered reference has no error that is known beforehand";
+  block_.reference.metadata["truth"] = "in closed form";
+  EXPECT_EQ(flagsAt(below), 0u);
+  EXPECT_GT(flagsAt(above), 0u);
+}
+
 // Doubted are 2 of 1000 correct rows of 8 runs with nearly normal noise, 13 with a long tail and
 // few pixels.
 TEST_F(SummaryTest, CorrectRowsAreNotDoubted) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/scene/builtin/name.h"
 #include "experiments/runner/base/build_info.h"
@@ -17,6 +19,7 @@ namespace {
 
 // Metadata key; absent if a reference was rendered from the scene itself.
 constexpr const char* kTruth = "truth";
+constexpr const char* kClosedForm = "in closed form";
 
 analytic::ExactView viewOf(const PreparedScene& plain, const ReferenceConfig& config) {
   return {.camera = plain.camera,
@@ -109,8 +112,17 @@ Reference exactReference(const SceneRequest& request, const PreparedScene& plain
   reference.metadata["spp"] = "0";
   reference.metadata["relmse_estimate"] = reference.metadata["relmse_since_half"] = "0";
   reference.metadata["render_time_s"] = "0";
-  reference.metadata[kTruth] = "in closed form";
+  reference.metadata[kTruth] = kClosedForm;
   return reference;
+}
+
+double exactError(const Reference& reference) {
+  const auto truth = reference.metadata.find(kTruth);
+  if (truth == reference.metadata.end() || truth->second != kClosedForm) return 0.0;
+  float brightest = 0.0f;
+  for (const glm::vec3& p : reference.mean.pixels)
+    brightest = std::max({brightest, p.x, p.y, p.z});
+  return analytic::kExactError * double(brightest);
 }
 
 Reference multiplied(Reference reference, double factor) {

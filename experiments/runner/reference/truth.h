@@ -32,6 +32,9 @@ PreparedScene plainOf(const Suite& suite, const SuiteScene& scene, const Prepare
 // Returns the exact image as a reference without noise: both halves equal it.
 Reference exactReference(const SceneRequest& request, const PreparedScene& plain,
                          const ReferenceConfig& config);
+// Returns the bound of the error of a pixel of an exact image, as radiance; 0 for any other
+// reference.
+double exactError(const Reference& reference);
 // Returns `reference` times `factor`, its noise included.
 Reference multiplied(Reference reference, double factor);
 
