@@ -50,16 +50,8 @@ std::string shareText(const Interval& share) {
   return fmt::format("{} % [{}, {}]", digits(share.value), digits(share.lo), digits(share.hi));
 }
 
-// Returns whether the method differs from an image in closed form by no more than that image's own
-// error. Runs without noise, such as those of paths that all end alike, would show it as a bias.
-bool isExactEnough(const MethodSummary& row) {
-  const double error = exactError(row.block->reference);
-  return row.mse.value <= error * error;
-}
-
 // Flags signs of an error in a method that is declared unbiased.
 void judgeUnbiased(MethodSummary& row) {
-  if (isExactEnough(row)) return;
   const Interval& energy = row.energyRatio;
   const double noise = 2.0 * energyNoise(row.block->reference);
   const double allowed = kDoubtHalfWidths * std::hypot((energy.hi - energy.lo) / 2.0, noise);
@@ -151,6 +143,11 @@ void flagNoise(MethodSummary& row) {
 
 }  // namespace
 
+bool isExactEnough(const MethodSummary& row) {
+  const double error = exactError(row.block->reference);
+  return error > 0.0 && row.mse.value <= error * error;
+}
+
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
@@ -163,6 +160,7 @@ void judge(MethodSummary& row) {
                     100.0 * row.worstShare));
   }
   flagNoise(row);
+  if (isExactEnough(row)) return;
   if (row.bias == BiasClass::unbiased) {
     judgeUnbiased(row);
   } else {

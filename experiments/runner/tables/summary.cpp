@@ -104,7 +104,7 @@ void summariseErrors(const MethodResult& result, const Reference& reference, Met
   }
   if (reference.half0 && reference.half1) {
     row.biasSquared = result.measured.squaredBias(*reference.half0, *reference.half1);
-    if (row.mse.value > 0.0) {
+    if (row.mse.value > 0.0 && !isExactEnough(row)) {
       row.biasShare = {row.biasSquared.value / row.mse.value, row.biasSquared.lo / row.mse.value,
                        row.biasSquared.hi / row.mse.value};
     }

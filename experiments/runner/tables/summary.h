@@ -52,10 +52,11 @@ struct MethodSummary {
   ReferenceNoise noise, noiseWithoutLights;
   // May be negative; over all pairs of runs; unknown with one run or without halves.
   Interval biasSquared{kUnknown, kUnknown, kUnknown};
-  Interval biasShare{kUnknown, kUnknown, kUnknown};  // biasSquared / mse.value, if mse.value > 0
-  Interval variance{kUnknown, kUnknown, kUnknown};   // the rest of the MSE
-  double worstShare = kUnknown;                      // mean over runs
-  uint64_t nonfinite = 0;                            // in images, and samples set to zero
+  // biasSquared / mse.value; unknown where the MSE is 0 or within the error of an exact image.
+  Interval biasShare{kUnknown, kUnknown, kUnknown};
+  Interval variance{kUnknown, kUnknown, kUnknown};  // the rest of the MSE
+  double worstShare = kUnknown;                     // mean over runs
+  uint64_t nonfinite = 0;                           // in images, and samples set to zero
 
   // Relative to the baseline on the same backend: path / method for errors, method / path for
   // times.
