@@ -14,5 +14,6 @@ set(RL_ANALYTIC_TESTS
   analytic/scene_file_textures_test.cpp
   analytic/truths_test.cpp
   analytic/wax_test.cpp
+  analytic/local_test.cpp
   scene/gltf_builder.cpp
 )

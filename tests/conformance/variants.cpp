@@ -18,6 +18,8 @@ std::string Variant::name() const {
 
 bool Variant::blurs() const { return findDenoiser(denoiser).needsFeatures; }
 
+bool Variant::leavesLightOut() const { return !findIntegrator(integrator).leavesOut.empty(); }
+
 std::vector<Variant> allVariants() {
   std::vector<Variant> all;
   for (const IntegratorInfo* info : integratorRegistry()) {

@@ -26,6 +26,8 @@ struct Variant {
   std::string name() const;
   // True if the denoiser averages over neighbours.
   bool blurs() const;
+  // True if the integrator leaves out light: its mean is no truth, and it follows no long paths.
+  bool leavesLightOut() const;
 };
 
 // Returns all variants in the registry's order.

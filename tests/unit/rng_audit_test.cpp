@@ -214,6 +214,22 @@ TEST(RngAudit, Template) {
   }
 }
 
+TEST(RngAudit, Local) {
+  // Make every loop over draws run more than once.
+  const ParameterMap busy = {{"light_samples", int64_t{5}},
+                             {"occlusion", std::string("rays")},
+                             {"occlusion_rays", int64_t{3}},
+                             {"ambient", 1.0},
+                             {"reflections", std::string("glossy")}};
+  for (const std::string& name : test::variedScenes()) {
+    for (const char* shading : {"phong", "gouraud", "flat"}) {
+      Audited audited{"local", "biased", {{"local", rl::kernel_local_audited}}, "", busy};
+      audited.parameters["shading"] = std::string(shading);
+      expectNoRepeats({name, audited}, std::string("local, ") + shading + ", " + name);
+    }
+  }
+}
+
 TEST(RngAudit, RestirGi) {
   // Make every loop over draws run more than once.
   const ParameterMap busy = {{"light_candidates", int64_t{5}},

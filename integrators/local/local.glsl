@@ -1,0 +1,215 @@
+// local: the lighting models of real-time graphics. Light that arrives from lamps and the sky, and
+// ambient light in place of all other.
+//
+// Estimator: each surface that the eye sees, straight or in mirrors, is lit by light samples, each
+// with a shadow ray. There are no MIS weights, since no BSDF sample looks for a light: lamps are
+// seen in mirrors alone. Bias: light that two rough surfaces scatter is left out, and so is light
+// through glass onto them. Bodies do not absorb.
+//
+// Lighting is computed in each pixel, or at the three corners of a triangle and interpolated
+// (Gouraud 1971), or once a triangle. The material is that of the pixel: a texture is modulated by
+// the light of the corners.
+//
+// All rays leave from one place of the code: GPU compilers write out each traversal. A `job` is one
+// turn of that loop: the ray of the eye, the surface that it met, and then the rays of each point.
+
+// Light after so many scattering events is asked for.
+RL_FN bool localWants(uint events) {
+  uint component = events >= 2u ? RL_COMPONENT_INDIRECT : RL_COMPONENT_DIRECT;
+  return (gFrame.components & component) != 0u;
+}
+
+// Random numbers of a ray: of a light sample, or of occlusion. Beyond the first vertex there is one
+// of each a point.
+RL_FN Rng localRng(RL_IN(Rng) rng, uint events, uint point, uint ray, bool isOcclusion) {
+  uint place = (events * 3u + point) * 2u + (isOcclusion ? 1u : 0u);
+  uint number = 6u * RL_LOCAL_MOST_RAYS + place;
+  if (events == 0u) number = place * RL_LOCAL_MOST_RAYS + ray;
+  Rng own = rng;
+  own.vertex = RL_VERTEX_CANDIDATES + number;
+  return own;
+}
+
+// f |cos_i| of the chosen model.
+RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
+  if (gParams.model == RL_LOCAL_CLOSURE) {
+    float pdf;
+    return bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, dirW, pdf);
+  }
+  float cosI = dot(s.nShadeW, dirW);
+  if (!(cosI > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+  vec3 value = min(bsdfAlbedo(s.bsdf), vec3(1.0f, 1.0f, 1.0f)) * cosI;
+  float cosLobe = 0.0f;
+  if (gParams.model == RL_LOCAL_PHONG) cosLobe = dot(s.nShadeW * (2.0f * cosI) - dirW, s.wo);
+  if (gParams.model == RL_LOCAL_BLINN_PHONG) {
+    vec3 h = dirW + s.wo;
+    cosLobe = dot(s.nShadeW, h) * rlSafeDivide(1.0f, sqrt(dot(h, h)));
+  }
+  if (cosLobe > 0.0f) {
+    float lobe = gParams.highlight * pow(cosLobe, gParams.highlightPower);
+    value += vec3(lobe, lobe, lobe);
+  }
+  return value * RL_INV_PI;
+}
+
+// Light that a surface sends on of the light from everywhere.
+RL_FN vec3 localAmbient(RL_IN(Surface) s) {
+  vec3 ambient = vec3(gParams.ambient, gParams.ambient, gParams.ambient);
+  vec3 sent = ambient * min(bsdfAlbedo(s.bsdf), vec3(1.0f, 1.0f, 1.0f));
+  if (RL_HAS(RL_FEATURE_AMBIENT)) sent += surfaceAmbient(s);
+  return sent;
+}
+
+// The hit that names a point at which a surface is lit: a corner of its triangle, or the middle.
+RL_FN Hit localPointHit(RL_IN(Surface) s, uint point) {
+  Hit hit = traceNoHit();
+  hit.instance = s.id.instance;
+  hit.primitive = s.id.primitive;
+  float third = 1.0f / 3.0f;
+  hit.bary = vec2(point == 1u ? 1.0f : 0.0f, point == 2u ? 1.0f : 0.0f);
+  if (gParams.shading == RL_LOCAL_FLAT) hit.bary = vec2(third, third);
+  return hit;
+}
+
+// Share of a point in the light of the pixel.
+RL_FN float localShare(RL_IN(Surface) s, uint points, uint point) {
+  if (points == 1u) return 1.0f;
+  if (point == 0u) return max(1.0f - s.id.bary.x - s.id.bary.y, 0.0f);
+  return point == 1u ? s.id.bary.x : s.id.bary.y;
+}
+
+// Shapes are lit in each pixel: they have no corners.
+RL_FN bool localIsPerPixel(RL_IN(Surface) s) {
+  if (gParams.shading == RL_LOCAL_PER_PIXEL) return true;
+  return RL_HAS_SHAPES && shapeIs(recordGeometry(recordInstance(s.id.instance).geometry));
+}
+
+RL_FN LocalVertex localVertex(RL_IN(Surface) s, uint events) {
+  LocalVertex v;
+  v.events = events;
+  v.points = gParams.shading == RL_LOCAL_GOURAUD && !localIsPerPixel(s) ? 3u : 1u;
+  v.lights = 0u;
+  v.occlusion = 0u;
+  if (events >= gFrame.maxBounces || !localWants(events + 1u) || bsdfIsBlack(s.bsdf)) return v;
+  if (lightExists()) v.lights = events == 0u ? gParams.lightSamples : 1u;
+  bool hasAmbient = rlIsBlack(s.emission) && !rlIsBlack(localAmbient(s));
+  if (gParams.occlusion != 0u && hasAmbient)
+    v.occlusion = events == 0u ? gParams.occlusionRays : 1u;
+  return v;
+}
+
+RL_FN void kernelMain(RL_IN(uvec2) pixel) {
+  uint pixelIndex = pixelIndexOf(pixel);
+  Rng rng = rngInit(gFrame.seed, pixelIndex, gFrame.frame);
+  uint film = cameraFilmBits(pixel);
+  Ray eye = cameraFilmRay(gFrame.camera, pixel, film);
+  vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
+  vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
+  bool showsLamps = true;  // the last reflection was a mirror's: no light sample knows the lamps
+  Surface s = surfaceNone();
+  Surface at = s;  // s, as it is lit at one of its points
+  Hit seen = traceNoHit();
+  LocalVertex v = localVertex(s, 0u);
+  uint job = 0u;
+  for (;;) {
+    uint rays = v.lights + v.occlusion;
+    uint point = job > 1u ? (job - 2u) / max(rays, 1u) : 0u;
+    uint ray = job > 1u ? (job - 2u) % max(rays, 1u) : 0u;
+    bool isOcclusion = job > 1u && ray >= v.lights;
+    if (job == 1u || (job > 1u && ray == 0u && !localIsPerPixel(s))) {
+      Hit load = seen;
+      if (job > 1u) load = localPointHit(s, point);
+      at = surfaceLoad(load, eye.dir);
+    }
+    if (job == 1u) {
+      s = at;
+      v = localVertex(s, v.events);
+      rays = v.lights + v.occlusion;
+      if (showsLamps && localWants(v.events)) radiance += throughput * s.emission;
+      if (v.events >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
+      if (v.occlusion == 0u && localWants(v.events + 1u) && rlIsBlack(s.emission))
+        radiance += throughput * localAmbient(s);
+    } else if (job > 1u && ray == 0u && !localIsPerPixel(s)) {
+      bool isParallel = v.events == 0u && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC;
+      vec3 toEye = isParallel ? -eye.dir : eye.origin - at.posW;
+      at.wo = toEye * rlSafeDivide(1.0f, sqrt(dot(toEye, toEye)));
+      at.bsdf = s.bsdf;
+      if (gParams.shading == RL_LOCAL_FLAT) at.nShadeW = at.nGeoW;
+    }
+
+    // The ray of this job, and what it brings if nothing is in its way.
+    Ray traced = eye;
+    uint mode = RL_RAY_PATH;
+    uint key = v.events == 0u ? cameraAlphaKey(film) : rng.key.x + v.events * 0x632be59bu;
+    bool traces = job == 0u;
+    vec3 unshadowed = vec3(0.0f, 0.0f, 0.0f);
+    if (job > 1u) {
+      mode = RL_RAY_SHADOW;
+      key = 0u;
+      Rng own = localRng(rng, v.events, point, isOcclusion ? ray - v.lights : ray, isOcclusion);
+      if (isOcclusion) {
+        vec2 u;
+        u.x = rngDraw(own, RL_DIM_BSDF_U);
+        u.y = rngDraw(own, RL_DIM_BSDF_V);
+        traced.dir = frameToWorld(at.nShadeW, warpCosineHemisphere(u));
+        traced.origin = surfaceOffset(at.posW, at.nGeoW, at.posError, traced.dir);
+        traced.tMin = 0.0f;
+        traced.tMax = gParams.occlusionRadius > 0.0f ? gParams.occlusionRadius : 3.0e38f;
+        // A smooth normal's hemisphere reaches below the face.
+        traces = dot(traced.dir, at.nGeoW) > 0.0f;
+        if (traces) unshadowed = localAmbient(s) * (1.0f / float(v.occlusion));
+      } else {
+        LightSample light = lightSample(own, lightReceiverAt(at));
+        LightConnection c = lightConnect(light, at.posW);
+        if (light.pdf > 0.0f && !rlIsBlack(c.emitted)) {
+          float factor = c.geometry / (light.pdf * float(v.lights));
+          unshadowed = localReflect(at, c.dirW) * c.emitted * factor;
+          traced = lightShadowRay(light, c, at.posW, at.nGeoW, at.posError);
+        }
+        traces = gParams.shadows != 0u && !rlIsBlack(unshadowed);
+      }
+    }
+    float passed = 1.0f;
+    if (traces) {
+      Hit hit = traceNoHit();
+      passed = traceRay(traced, mode, key, hit);
+      if (job == 0u) seen = hit;
+    }
+    if (job > 1u) radiance += throughput * unshadowed * (passed * localShare(s, v.points, point));
+    if (job == 0u && seen.instance == RL_INVALID) {
+      bool isInView = v.events == 0u;
+      if (showsLamps && skyExists(isInView) && localWants(v.events))
+        radiance += throughput * skyRadiance(eye.dir, isInView);
+      break;
+    }
+    job = job + 1u;
+    if (job < 2u + v.points * rays || job == 1u) continue;
+
+    // The surface is lit: on to what it mirrors.
+    if (gParams.reflections == 0u) break;
+    rng.vertex = v.events + 1u;
+    float uLobe = rngDraw(rng, RL_DIM_BSDF_LOBE);
+    vec2 u;
+    u.x = rngDraw(rng, RL_DIM_BSDF_U);
+    u.y = rngDraw(rng, RL_DIM_BSDF_V);
+    BsdfSample draw = bsdfSample(s.bsdf, s.nGeoW, s.nShadeW, s.wo, uLobe, u);
+    showsLamps = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u;
+    bool goesOn = showsLamps;
+    if (gParams.reflections == RL_LOCAL_GLOSSY)
+      goesOn = showsLamps ||
+               (draw.lobe & (RL_LOBE_SPECULAR | RL_LOBE_TRANSMISSION | RL_LOBE_COAT)) != 0u;
+    if (!goesOn || rlIsBlack(draw.weight)) break;
+    throughput *= draw.weight;
+    eye.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);
+    eye.dir = draw.wi;
+    eye.tMin = 0.0f;
+    eye.tMax = 3.0e38f;
+    v.events = v.events + 1u;
+    job = 0u;
+  }
+  if (!rlIsFinite3(radiance)) {
+    RL_HEALTH(RL_HEALTH_NONFINITE);
+    radiance = vec3(0.0f, 0.0f, 0.0f);
+  }
+  gBuffers.radiance.data[pixelIndex] = radiance;
+}
