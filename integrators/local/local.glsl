@@ -87,10 +87,11 @@ RL_FN bool localIsPerPixel(RL_IN(Surface) s) {
 RL_FN LocalVertex localVertex(RL_IN(Surface) s, uint events) {
   LocalVertex v;
   v.events = events;
-  v.points = gParams.shading == RL_LOCAL_GOURAUD && !localIsPerPixel(s) ? 3u : 1u;
+  v.points = 1u;
   v.lights = 0u;
   v.occlusion = 0u;
   if (events >= gFrame.maxBounces || !localWants(events + 1u) || bsdfIsBlack(s.bsdf)) return v;
+  if (gParams.shading == RL_LOCAL_GOURAUD && !localIsPerPixel(s)) v.points = 3u;
   if (lightExists()) v.lights = events == 0u ? gParams.lightSamples : 1u;
   bool hasAmbient = rlIsBlack(s.emission) && !rlIsBlack(localAmbient(s));
   if (gParams.occlusion != 0u && hasAmbient)

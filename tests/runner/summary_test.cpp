@@ -190,6 +190,16 @@ TEST_F(SummaryTest, NoBiasBelowTheErrorOfAnExactImage) {
   EXPECT_GT(flagsAt(above), 0u);
 }
 
+TEST_F(SummaryTest, RowsSayWhatLightTheyLeaveOut) {
+  suite_.methods[1].session.integrator = "local";
+  const MethodSummary row = summarise(suite_, block_)[1];
+  EXPECT_FALSE(row.counts);
+  ASSERT_EQ(row.flags.size(), 1u);
+  EXPECT_NE(row.flags[0].find("leaves out light that two rough surfaces scatter; energy ratio 1 ["),
+            std::string::npos)
+      << row.flags[0];
+}
+
 // Doubted are 2 of 1000 correct rows of 8 runs with nearly normal noise, 13 with a long tail and
 // few pixels.
 TEST_F(SummaryTest, CorrectRowsAreNotDoubted) {

@@ -120,8 +120,7 @@ double exactError(const Reference& reference) {
   const auto truth = reference.metadata.find(kTruth);
   if (truth == reference.metadata.end() || truth->second != kClosedForm) return 0.0;
   float brightest = 0.0f;
-  for (const glm::vec3& p : reference.mean.pixels)
-    brightest = std::max({brightest, p.x, p.y, p.z});
+  for (const glm::vec3& p : reference.mean.pixels) brightest = std::max({brightest, p.x, p.y, p.z});
   return analytic::kExactError * double(brightest);
 }
 
