@@ -22,8 +22,8 @@ struct ModeInfo {
 // Sets FrameBuffers::radiance (12 bytes per pixel).
 struct IntegratorInfo : PartInfo {
   std::vector<ModeInfo> modes;
-  // Light that the method does not look for, in words; "": none. Its images are darker than the
-  // truth by design, so that tests of the mean do not apply.
+  // Light that the method does not look for, in words; "": none. Tests of the mean do not apply to
+  // it.
   std::string leavesOut;
   bool usesCache = false;  // keeps reservoirs in a cache
   bool endsPaths = false;  // paths may end in cells of the radiance cache (core/radiance_cache)

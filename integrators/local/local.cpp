@@ -2,6 +2,9 @@
 // a parameter.
 #include "integrators/local/local.h"
 
+#include <set>
+#include <string>
+
 #include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 #include "core/frame/schema.h"
@@ -103,9 +106,9 @@ void recordLocal(FrameGraph& g, const FrameInfo& f) {
 std::string whyUnused(const std::string& name, const ParameterMap& parameters) {
   const LocalSettings s = schema().read(parameters);
   const bool isLecture = s.preset == kLecture;
-  if (isLecture && name != "preset" && name != "light_samples" && name != "occlusion_rays" &&
-      name != "occlusion_radius" && name != "mode")
-    return "preset = lecture sets it";
+  const std::set<std::string> ofPreset = {"model",   "shading",   "shadows",         "occlusion",
+                                          "ambient", "highlight", "highlight_power", "reflections"};
+  if (isLecture && ofPreset.contains(name)) return "preset = lecture sets it";
   const bool hasLobe = s.model == rl::RL_LOCAL_PHONG || s.model == rl::RL_LOCAL_BLINN_PHONG;
   if ((name == "highlight" || name == "highlight_power") && !hasLobe)
     return "model has no lobe of a power";
@@ -122,9 +125,11 @@ const IntegratorInfo& localIntegratorInfo() {
     i.name = "local";
     i.summary =
         "local lighting: lamps, ambient light, shadows, occlusion and reflections, each optional";
-    i.modes = {{"biased", BiasClass::biased,
-                "light that two rough surfaces scatter is left out, and light through glass"}};
-    i.leavesOut = "light that two rough surfaces scatter";
+    i.modes = {
+        {"biased", BiasClass::biased,
+         "most light of more than one rough surface is left out, and mirrors and glass unless "
+         "asked for; models and ambient light of its own stand for others"}};
+    i.leavesOut = "light of more than one rough surface";
     i.parameters = schema().infos();
     i.reasonUnused = whyUnused;
     i.record = recordLocal;

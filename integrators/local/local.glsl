@@ -3,12 +3,14 @@
 //
 // Estimator: each surface that the eye sees, straight or in mirrors, is lit by light samples, each
 // with a shadow ray. There are no MIS weights, since no BSDF sample looks for a light: lamps are
-// seen in mirrors alone. Bias: light that two rough surfaces scatter is left out, and so is light
-// through glass onto them. Bodies do not absorb.
+// seen in mirrors alone. Rough reflections are followed where a glossy lobe was drawn, with the
+// weight of all lobes: what they show depends on how lobes are drawn. Bias: most light that two
+// rough surfaces scatter is left out, and so are mirrors and glass, unless they are asked for.
+// Bodies neither absorb nor scatter, and each of their surfaces is one in air. No Russian roulette.
 //
 // Lighting is computed in each pixel, or at the three corners of a triangle and interpolated
 // (Gouraud 1971), or once a triangle. The material is that of the pixel: a texture is modulated by
-// the light of the corners.
+// the light of the corners. Normal maps are read at the corners.
 //
 // All rays leave from one place of the code: GPU compilers write out each traversal. A `job` is one
 // turn of that loop: the ray of the eye, the surface that it met, and then the rays of each point.
@@ -37,8 +39,11 @@ RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
     return bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, dirW, pdf);
   }
   float cosI = dot(s.nShadeW, dirW);
-  if (!(cosI > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  vec3 value = min(bsdfAlbedo(s.bsdf), vec3(1.0f, 1.0f, 1.0f)) * cosI;
+  if (!(cosI > 0.0f) || !(dot(s.nGeoW, dirW) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+  // What reflections follow is not diffuse, too.
+  vec3 albedo = bsdfAlbedo(s.bsdf);
+  if (gParams.reflections != 0u) albedo = s.bsdf.diffuse;
+  vec3 value = min(albedo, vec3(1.0f, 1.0f, 1.0f)) * cosI;
   float cosLobe = 0.0f;
   if (gParams.model == RL_LOCAL_PHONG) cosLobe = dot(s.nShadeW * (2.0f * cosI) - dirW, s.wo);
   if (gParams.model == RL_LOCAL_BLINN_PHONG) {
@@ -46,7 +51,7 @@ RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
     cosLobe = dot(s.nShadeW, h) * rlSafeDivide(1.0f, sqrt(dot(h, h)));
   }
   if (cosLobe > 0.0f) {
-    float lobe = gParams.highlight * pow(cosLobe, gParams.highlightPower);
+    float lobe = gParams.highlight * pow(min(cosLobe, 1.0f), gParams.highlightPower);
     value += vec3(lobe, lobe, lobe);
   }
   return value * RL_INV_PI;
@@ -126,7 +131,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       s = at;
       v = localVertex(s, v.events);
       rays = v.lights + v.occlusion;
-      if (showsLamps && localWants(v.events)) radiance += throughput * s.emission;
+      // Light samples know nothing of surfaces without a record of a light.
+      if ((showsLamps || s.light == RL_INVALID) && localWants(v.events))
+        radiance += throughput * s.emission;
       if (v.events >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
       if (v.occlusion == 0u && localWants(v.events + 1u) && rlIsBlack(s.emission))
         radiance += throughput * localAmbient(s);
@@ -197,8 +204,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     showsLamps = (draw.lobe & RL_LOBE_ANY_DELTA) != 0u;
     bool goesOn = showsLamps;
     if (gParams.reflections == RL_LOCAL_GLOSSY)
-      goesOn = showsLamps ||
-               (draw.lobe & (RL_LOBE_SPECULAR | RL_LOBE_TRANSMISSION | RL_LOBE_COAT)) != 0u;
+      goesOn = showsLamps || (draw.lobe & (RL_LOBE_SPECULAR | RL_LOBE_TRANSMISSION)) != 0u;
     if (!goesOn || rlIsBlack(draw.weight)) break;
     throughput *= draw.weight;
     eye.origin = surfaceOffset(s.posW, s.nGeoW, s.posError, draw.wi);

@@ -8,6 +8,7 @@
 #include "experiments/report/text.h"
 #include "experiments/runner/reference/reference_error.h"
 #include "experiments/runner/reference/truth.h"
+#include "experiments/truths/truths.h"
 
 namespace restlab {
 
@@ -159,7 +160,8 @@ void flagNoise(MethodSummary& row) {
 
 bool isExactEnough(const MethodSummary& row) {
   const double error = exactError(row.block->reference);
-  return error > 0.0 && row.mse.value <= error * error;
+  return error > 0.0 && row.mse.value <= error * error &&
+         std::abs(row.energyRatio.value - 1.0) <= analytic::kExactError;
 }
 
 void judge(MethodSummary& row) {
