@@ -40,7 +40,7 @@ RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
   }
   float cosI = dot(s.nShadeW, dirW);
   if (!(cosI > 0.0f) || !(dot(s.nGeoW, dirW) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  // What reflections follow is not diffuse, too.
+  // Light that reflections follow is not reflected diffusely as well.
   vec3 albedo = bsdfAlbedo(s.bsdf);
   if (gParams.reflections != 0u) albedo = s.bsdf.diffuse;
   vec3 value = min(albedo, vec3(1.0f, 1.0f, 1.0f)) * cosI;
