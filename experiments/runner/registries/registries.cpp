@@ -65,6 +65,7 @@ Json integratorsJson() {
     all.push_back({{"name", info->name},
                    {"summary", info->summary},
                    {"uses_cache", info->usesCache},
+                   {"leaves_out", info->leavesOut},
                    {"modes", modes},
                    {"parameters", parametersJson(parametersOf(*info))},
                    {"layers", layersJson(*info)}});
