@@ -42,6 +42,11 @@ GraphPass& GraphPass::replays() {
   return *this;
 }
 
+GraphPass& GraphPass::once() {
+  isOnce = true;
+  return *this;
+}
+
 Buffer GraphPass::bound(size_t slot) const {
   const auto has = [&](const std::vector<Buffer>& all) {
     return std::find(all.begin(), all.end(), slots[slot]) != all.end();
@@ -99,21 +104,52 @@ Buffer FrameGraph::declare(const GraphBuffer& wanted) {
 
 Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elementBytes,
                           rl::FeatureMask features) {
-  return declare({name, "", count, elementBytes, features, false, false});
+  return declare({name, "", count, elementBytes, features, false, false, {}});
 }
 
 Buffer FrameGraph::transient(const std::string& name, size_t count, uint32_t elementBytes,
                              rl::FeatureMask features) {
-  return declare({name, "", count, elementBytes, features, false, true});
+  return declare({name, "", count, elementBytes, features, false, true, {}});
 }
 
 History FrameGraph::history(const std::string& name, size_t count, uint32_t elementBytes,
                             rl::FeatureMask features) {
-  const Buffer first = declare({name, "", count, elementBytes, features, true, false});
+  const Buffer first = declare({name, "", count, elementBytes, features, true, false, {}});
   const Buffer second =
-      declare({name + "_previous", "", count, elementBytes, features, true, false});
+      declare({name + "_previous", "", count, elementBytes, features, true, false, {}});
   if (!first) return {};
   return isSwapped_[first.index] ? History{second, first} : History{first, second};
+}
+
+Buffer FrameGraph::table(const std::string& name,
+                         std::shared_ptr<const std::vector<uint32_t>> contents,
+                         uint32_t elementBytes) {
+  const size_t count = contents->size() * sizeof(uint32_t) / elementBytes;
+  return declare({name, "", count, elementBytes, 0, false, false, std::move(contents)});
+}
+
+void FrameGraph::loop(uint32_t times, const std::function<void()>& body) {
+  const size_t first = passes_.size();
+  body();
+  if (first == passes_.size() || times == 0)
+    failUsage(fmt::format("{}: a loop without passes or turns", part_));
+  passes_[first].loopPasses = static_cast<uint32_t>(passes_.size() - first);
+  passes_[first].loopTimes = times;
+}
+
+std::vector<size_t> FrameGraph::order() const {
+  std::vector<size_t> all;
+  for (size_t pass = 0; pass < passes_.size(); ++pass) {
+    const uint32_t length = passes_[pass].loopPasses;
+    if (length == 0) {
+      all.push_back(pass);
+      continue;
+    }
+    for (uint32_t turn = 0; turn < passes_[pass].loopTimes; ++turn)
+      for (uint32_t i = 0; i < length; ++i) all.push_back(pass + i);
+    pass += length - 1;
+  }
+  return all;
 }
 
 History FrameGraph::advance(const History& history) {

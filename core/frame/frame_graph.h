@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +53,10 @@ struct FrameInfo {
   size_t pixels = 0;
   bool isNewView = true;             // camera or parameters differ from those of the frame before
   bool wantsRadianceFrames = false;  // a part reads FrameBuffers::radianceFrames
+  const CompiledScene* scene = nullptr;
+  // Frames recorded since buffers hold nothing of this scene with these parameters, and since its
+  // light changed, if that was later. Cameras may have moved.
+  uint32_t sceneAge = 0, lightAge = 0;
 
   // Number of groups of `perGroup` pixels; the last one may have fewer.
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }
@@ -64,7 +70,8 @@ struct GraphBuffer {
   uint32_t elementBytes = 0;
   rl::FeatureMask features = 0;  // allocated only if kernels have one of these features; 0: always
   bool isHistory = false;
-  bool isTransient = false;  // holds nothing between frames
+  bool isTransient = false;                                    // holds nothing between frames
+  std::shared_ptr<const std::vector<uint32_t>> contents = {};  // from the host; null: zero at first
 
   size_t bytes() const { return count * elementBytes; }
 };
@@ -79,6 +86,10 @@ struct GraphPass {
   std::vector<Buffer> read, written;
   uint32_t entries = 0;   // 0: pixels
   bool isReplay = false;  // repeats earlier work whose health was already counted
+  bool isOnce = false;    // work for the scene, of which no frame is the owner
+  // This pass and those after it, `loopPasses` in all, run `loopTimes` times in turn. 0: no loop
+  // begins here.
+  uint32_t loopPasses = 0, loopTimes = 1;
 
   // The kernel finds the buffers that the pass declares, and null in all other slots.
   GraphPass& reads(std::initializer_list<Buffer> buffers);
@@ -88,6 +99,8 @@ struct GraphPass {
   // Runs over this many elements, at least one, instead of over pixels (RL_ENTRY_ROW).
   GraphPass& over(size_t elements);
   GraphPass& replays();
+  // Marks work for the scene: its time is told apart from that of frames.
+  GraphPass& once();
 
   // Buffer of a slot as the kernel sees it.
   Buffer bound(size_t slot) const;
@@ -135,6 +148,13 @@ class FrameGraph {
   // Begins a new element of a history: `now` of the last frame becomes `previous`.
   History advance(const History& history);
 
+  // Declares a buffer that the host fills with whole elements before the first frame. Passes only
+  // read it.
+  Buffer table(const std::string& name, std::shared_ptr<const std::vector<uint32_t>> contents,
+               uint32_t elementBytes);
+  // Runs the passes that `body` records several times in turn. Their times are added up.
+  void loop(uint32_t times, const std::function<void()>& body);
+
   // Lets transient buffers use the memory of histories whose last frame is not read any more when
   // the buffer is first written, in this frame of a new view and in a frame of a still view of the
   // same parts. `still`: that frame, recorded after this one.
@@ -157,6 +177,8 @@ class FrameGraph {
 
   const std::vector<GraphBuffer>& buffers() const { return buffers_; }
   const std::vector<GraphPass>& passes() const { return passes_; }
+  // Passes in the order in which they run, with every turn of their loops.
+  std::vector<size_t> order() const;
   // Passes of one part.
   std::vector<const GraphPass*> passesOf(const std::string& part) const;
   // Finds a buffer by name, with histories as the last recorded frame had them.

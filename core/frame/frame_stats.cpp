@@ -39,12 +39,16 @@ FrameStats statsOf(const std::vector<Pipeline::PassResult>& passes) {
   FrameStats stats;
   for (const Pipeline::PassResult& pass : passes) {
     stats.passes.push_back(
-        {pass.name, pass.timeMs, pass.counters.raysPath, pass.counters.raysShadow});
+        {pass.name, pass.timeMs, pass.counters.raysPath, pass.counters.raysShadow, pass.isOnce});
+    for (size_t k = 0; k < stats.health.counts.size(); ++k)
+      stats.health.counts[k] += pass.counters.health[k];
+    if (pass.isOnce) {
+      stats.sceneMs += pass.timeMs;
+      continue;
+    }
     stats.timeMs += pass.timeMs;
     stats.raysPath += pass.counters.raysPath;
     stats.raysShadow += pass.counters.raysShadow;
-    for (size_t k = 0; k < stats.health.counts.size(); ++k)
-      stats.health.counts[k] += pass.counters.health[k];
   }
   return stats;
 }

@@ -93,7 +93,7 @@ ImageDenoiser::ImageDenoiser(const SessionConfig& config) : impl_(std::make_uniq
   m.backend = makeBackend(config.backend, noScene(),
                           {config.threads, config.device, config.rayTracing, config.validate});
   m.pipeline.emplace(*m.backend, std::vector<const PartInfo*>{&layersPart(), m.method.denoiser}, "",
-                     m.config.parameters, 0u, size_t(config.width) * config.height);
+                     m.config.parameters, 0u, size_t(config.width) * config.height, noScene());
   const auto& onHost = m.method.denoiser->onHost;
   m.backend->requireMemory(
       m.method.denoiser->name, config.width, config.height, m.pipeline->bytesPerPixel(),

@@ -33,28 +33,35 @@ class Copies {
 }  // namespace
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-                   const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels)
+                   const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels,
+                   std::shared_ptr<const CompiledScene> scene)
     : backend_(backend),
       parts_(std::move(parts)),
       mode_(mode),
       parameters_(parameters),
       wanted_(wanted),
       pixels_(pixels),
+      scene_(std::move(scene)),
       graph_(recorded(parameters, pixels)) {
   if (!graph_.shared.radiance)
     failUsage(fmt::format("{}: its frame leaves no radiance (FrameBuffers)", parts_.back()->name));
   for (const GraphPass& pass : graph_.passes()) {
-    columns_.push_back({pass.name, pass.isReplay});
+    columns_.push_back(columnOf(pass));
     if (hasFeatures(pass.kernel)) used_ |= maskOf(pass.kernel);
   }
 }
 
-// Records a frame of a new view, which has every buffer and pass of the method.
+FrameInfo Pipeline::frameInfo(const ParameterMap& parameters, size_t pixels, bool isNewView,
+                              uint32_t age) const {
+  return {mode_, parameters, pixels, isNewView, false, scene_.get(), age, age};
+}
+
+// Records the first frame of a new view, which has every buffer and pass of the method.
 FrameGraph Pipeline::recorded(const ParameterMap& parameters, size_t pixels) const {
   FrameGraph graph;
-  graph.record(parts_, {mode_, parameters, pixels, true});
+  graph.record(parts_, frameInfo(parameters, pixels, true, 0));
   FrameGraph still = graph;
-  still.record(parts_, {mode_, parameters, pixels, false});
+  still.record(parts_, frameInfo(parameters, pixels, false, 1));
   graph.shareMemory(still);
   return graph;
 }
@@ -86,7 +93,8 @@ size_t Pipeline::bytesOf(Buffer buffer) const {
 bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& report) {
   const FrameGraph changed = recorded(parameters, pixels_);
   const auto isSame = [](const GraphBuffer& a, const GraphBuffer& b) {
-    return a.name == b.name && a.bytes() == b.bytes();
+    return a.name == b.name && a.bytes() == b.bytes() &&
+           (a.contents == b.contents || (a.contents && b.contents && *a.contents == *b.contents));
   };
   if (!changed.sharesAlike(graph_) ||
       !std::equal(changed.buffers().begin(), changed.buffers().end(), graph_.buffers().begin(),
@@ -98,9 +106,10 @@ bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& repo
   }
   if (!backend_.compile(kernelsOf(changed), report)) return false;
   parameters_ = parameters;
+  ages_ = {};
   columns_.clear();
   for (const GraphPass& pass : changed.passes()) {
-    columns_.push_back({pass.name, pass.isReplay});
+    columns_.push_back(columnOf(pass));
     backend_.prepare(runOf(pass), report);
   }
   return true;
@@ -195,7 +204,14 @@ void Pipeline::allocate() {
   for (size_t i = 0; i < graph_.buffers().size(); ++i) {
     const size_t bytes = ownBytes(graph_, i);
     ids_.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
+    const auto& contents = graph_.buffers()[i].contents;
+    if (contents && bytes > 0) backend_.write(ids_.back(), contents->data(), bytes);
   }
+}
+
+void Pipeline::setScene(std::shared_ptr<const CompiledScene> scene) {
+  scene_ = std::move(scene);
+  ages_.light = 0;
 }
 
 void Pipeline::prepare(StartupReport& report) {
@@ -203,9 +219,10 @@ void Pipeline::prepare(StartupReport& report) {
 }
 
 void Pipeline::clear() {
-  for (const BufferId id : ids_) {
-    if (id != kNoBuffer) backend_.clear(id);
+  for (size_t i = 0; i < ids_.size(); ++i) {
+    if (ids_[i] != kNoBuffer && !graph_.buffers()[i].contents) backend_.clear(ids_[i]);
   }
+  ages_ = {};
 }
 
 std::vector<std::pair<BufferId, BufferId>> Pipeline::withCopies() const {
@@ -226,11 +243,13 @@ void Pipeline::keep() {
     copies_ = std::move(copies);
   }
   kept_ = graph_;
+  keptAges_ = ages_;
   backend_.copy(withCopies());
 }
 
 void Pipeline::restore() {
   graph_ = *kept_;
+  ages_ = keptAges_;
   ran_.clear();
   std::vector<std::pair<BufferId, BufferId>> pairs = withCopies();
   for (auto& [buffer, copy] : pairs) std::swap(buffer, copy);
@@ -257,21 +276,33 @@ PassRun Pipeline::runOf(const GraphPass& pass) {
 }
 
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
-  graph_.record(parts_, {mode_, parameters_, pixels_, isNewView});
+  FrameInfo frame = frameInfo(parameters_, pixels_, isNewView, ages_.scene);
+  frame.lightAge = ages_.light;
+  graph_.record(parts_, frame);
+  ++ages_.scene;
+  ++ages_.light;
   if (graph_.buffers().size() != ids_.size())
     failUsage(
         fmt::format("buffer {}: a frame of a new view lacks it", graph_.buffers().back().name));
-  Ran ran = {columns_, std::vector<bool>(columns_.size(), false)};
-  std::vector<PassRun> runs;
+  Ran ran = {columns_, {}};
+  std::vector<PassRun> once;
   size_t column = 0;
   for (const GraphPass& pass : graph_.passes()) {
-    runs.push_back(runOf(pass));
+    once.push_back(runOf(pass));
     // A still view leaves passes out; it has no others.
     while (column < columns_.size() && columns_[column].name != pass.name) ++column;
     if (column == columns_.size())
       failUsage(fmt::format("pass {}: a frame of a new view lacks it", pass.name));
-    ran.hasRun[column++] = true;
+    ran.runs.push_back(column++);
   }
+  const std::vector<size_t> order = graph_.order();
+  std::vector<PassRun> runs;
+  std::vector<size_t> columns;
+  for (const size_t pass : order) {
+    runs.push_back(once[pass]);
+    columns.push_back(ran.runs[pass]);
+  }
+  ran.runs = std::move(columns);
   ran_.push_back(std::move(ran));
   return runs;
 }
@@ -280,16 +311,19 @@ std::vector<Pipeline::PassResult> Pipeline::collect(const FrameResult& result) {
   const Ran ran = std::move(ran_.front());
   ran_.pop_front();
   std::vector<PassResult> passes;
-  size_t next = 0;
-  for (size_t column = 0; column < ran.columns.size(); ++column) {
+  for (const Column& column : ran.columns) {
     PassResult& out = passes.emplace_back();
-    out.name = ran.columns[column].name;
-    if (!ran.hasRun[column]) continue;
-    out.timeMs = result.timesMs[next];
-    out.counters = result.counters[next];
-    if (ran.columns[column].isReplay)
-      std::fill(std::begin(out.counters.health), std::end(out.counters.health), 0u);
-    ++next;
+    out.name = column.name;
+    out.isOnce = column.isOnce;
+  }
+  for (size_t run = 0; run < ran.runs.size(); ++run) {
+    const PassCounters& own = result.counters[run];
+    PassResult& out = passes[ran.runs[run]];
+    out.timeMs += result.timesMs[run];
+    out.counters.raysPath += own.raysPath;
+    out.counters.raysShadow += own.raysShadow;
+    if (ran.columns[ran.runs[run]].isReplay) continue;
+    for (size_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) out.counters.health[k] += own.health[k];
   }
   return passes;
 }

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,7 +26,8 @@ class Pipeline {
  public:
   // `wanted`: the features of the kernels. Allocates nothing yet.
   Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-           const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels);
+           const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels,
+           std::shared_ptr<const CompiledScene> scene);
 
   rl::FeatureMask featuresUsed() const { return used_; }
   // Bytes per pixel of each buffer that the kernels in use can touch, rounded up; 0: it uses the
@@ -51,11 +53,14 @@ class Pipeline {
   // Values of a part's layer, one per pixel.
   std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 
+  // Sets the scene of later frames, which differs in its light alone.
+  void setScene(std::shared_ptr<const CompiledScene> scene);
+
   // Kernels of the passes.
   std::vector<KernelUse> kernels() { return kernelsOf(graph_); }
   void allocate();
   void prepare(StartupReport& report);
-  // Zeroes every buffer.
+  // Zeroes every buffer but the host's tables.
   void clear();
   // Copies every buffer. The first call allocates as much memory again as allocate() did, and
   // throws as Backend::allocate() does.
@@ -73,6 +78,7 @@ class Pipeline {
     std::string name;
     double timeMs = 0.0;
     PassCounters counters;
+    bool isOnce = false;  // work for the scene (GraphPass::once)
   };
   std::vector<PassResult> collect(const FrameResult& result);
 
@@ -86,6 +92,8 @@ class Pipeline {
 
  private:
   FrameGraph recorded(const ParameterMap& parameters, size_t pixels) const;
+  FrameInfo frameInfo(const ParameterMap& parameters, size_t pixels, bool isNewView,
+                      uint32_t age) const;
   bool isUsed(const GraphBuffer& buffer) const;
   // Bytes that are allocated for the buffer itself.
   size_t ownBytes(const FrameGraph& graph, size_t index) const;
@@ -102,13 +110,14 @@ class Pipeline {
   // A pass that a frame may run, in the table of times.
   struct Column {
     std::string name;
-    bool isReplay = false;
+    bool isReplay = false, isOnce = false;
     bool operator==(const Column&) const = default;
   };
+  static Column columnOf(const GraphPass& pass) { return {pass.name, pass.isReplay, pass.isOnce}; }
   // Passes of a new view, and those that ran in one frame.
   struct Ran {
     std::vector<Column> columns;
-    std::vector<bool> hasRun;  // by column
+    std::vector<size_t> runs;  // column of each run, in their order
   };
 
   Backend& backend_;
@@ -118,13 +127,19 @@ class Pipeline {
   rl::FeatureMask wanted_ = 0;
   std::map<std::string, rl::FeatureMask> masks_;  // by kernel
   size_t pixels_ = 0;
+  std::shared_ptr<const CompiledScene> scene_;
+  struct Ages {
+    uint32_t scene = 0, light = 0;  // FrameInfo::sceneAge, lightAge, of the next frame
+  };
+  Ages ages_;
   FrameGraph graph_;
   rl::FeatureMask used_ = 0;
   std::vector<Column> columns_;
   std::vector<BufferId> ids_;       // by buffer of the graph; kNoBuffer: not allocated
   std::deque<Ran> ran_;             // of the frames in flight
   std::optional<FrameGraph> kept_;  // snapshot of keep(); copies_ holds the contents
-  std::vector<BufferId> copies_;    // by buffer of the graph
+  Ages keptAges_;
+  std::vector<BufferId> copies_;  // by buffer of the graph
 };
 
 }  // namespace restlab

@@ -174,7 +174,7 @@ rl::FeatureMask Session::Impl::wantedFeatures() const {
 
 void Session::Impl::openPipeline() {
   pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters,
-                   wantedFeatures(), size_t(config.width) * config.height);
+                   wantedFeatures(), size_t(config.width) * config.height, scene);
   const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
   backend->requireMemory(method.integrator->name, config.width, config.height,
                          pipeline->bytesPerPixel(),
@@ -356,6 +356,7 @@ void Session::setScene(std::shared_ptr<const CompiledScene> scene) {
   }
   m.bindTables(*scene);
   m.backend->setScene(scene);
+  m.pipeline->setScene(scene);
   m.scene = std::move(scene);
 }
 

@@ -48,6 +48,7 @@ struct PassTiming {
   std::string name;
   double timeMs = 0.0;
   uint64_t raysPath = 0, raysShadow = 0;
+  bool isOnce = false;  // work for the scene, not for this frame
 };
 
 struct Health {
@@ -58,7 +59,10 @@ struct Health {
 };
 
 struct FrameStats {
-  double timeMs = 0.0;  // sum of the passes, including a filter on the host; no metrics, no I/O
+  // Sum of the passes, including a filter on the host, without work for the scene; no metrics, no
+  // I/O.
+  double timeMs = 0.0;
+  double sceneMs = 0.0;  // work for the scene that this frame did: PassTiming::isOnce
   std::vector<PassTiming> passes;
   uint64_t raysPath = 0, raysShadow = 0;
   Health health;  // counted in this frame

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <mutex>
 
 #include "core/base/error.h"
@@ -48,6 +49,8 @@ struct CompiledScene::Impl {
   Scene scene;
   rl::FeatureMask features = 0;
   std::once_flag ggxAlbedoBound, bvhBound, lightTreeBound;
+  std::mutex derivedLock;
+  std::map<std::string, Derived> derived;
   Bvh bvh;
   LightTree lightTree;
   glm::dvec3 origin{0.0};
@@ -294,6 +297,15 @@ void CompiledScene::bindLightTree() const {
     m.data.lightTree.data = m.lightTree.nodes.data();
     m.data.lightTrails.data = m.lightTree.trails.data();
   });
+}
+
+CompiledScene::Derived CompiledScene::derived(const std::string& name,
+                                              const std::function<Derived()>& make) const {
+  const std::lock_guard lock(impl_->derivedLock);
+  std::map<std::string, Derived>& all = impl_->derived;
+  if (const auto known = all.find(name); known != all.end()) return known->second;
+  std::erase_if(all, [](const auto& unused) { return unused.second.use_count() == 1; });
+  return all[name] = make();
 }
 
 BvhInput CompiledScene::bvhInput() const {

@@ -36,6 +36,10 @@ class CompiledScene {
   // Makes SceneData::lightTree and lightTrails point to the hierarchy of lamps, for sessions that
   // choose lamps by it; built at the first call.
   void bindLightTree() const;
+  // Returns what a method has derived from the scene under this name, made at the first call. It is
+  // dropped when nobody holds it and another one is made.
+  using Derived = std::shared_ptr<const void>;
+  Derived derived(const std::string& name, const std::function<Derived()>& make) const;
   BvhInput bvhInput() const;  // input of hierarchy builders; valid as long as this object
   // Returns data() for a device with its own memory: every address is replaced by what `place`
   // returns for the bytes there (0 for an empty buffer). Includes the project's own hierarchy if it

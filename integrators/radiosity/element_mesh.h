@@ -1,0 +1,41 @@
+// The mesh of elements of `radiosity`, made from the triangles of a scene.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace restlab {
+
+class CompiledScene;
+
+// Triangles divided until no edge of an element is longer than the size asked for. Elements of one
+// triangle are alike. Vertices are shared where positions meet within an instance and shading
+// normals differ by less than 3 degrees.
+struct ElementMesh {
+  // Words of the kernels' tables (integrators/radiosity/radiosity.h).
+  std::vector<uint32_t> instances, triangles, elements, vertices;
+  size_t elementCount = 0, vertexCount = 0;
+  double size = 0.0;              // metres: longest edge that was allowed
+  double areaM2 = 0.0;            // of one side of all triangles
+  double otherThanLambert = 0.0;  // share of the area whose material is not diffuse alone
+};
+
+// Elements and vertices (no fewer than the mesh will have) for a size in metres.
+struct ElementCounts {
+  size_t elements = 0, vertices = 0;
+};
+ElementCounts countElements(const CompiledScene& scene, double size);
+
+// Size of elements that gives a scene about `elements` of them. Throws Error (badInput) if it has
+// no triangle with an area.
+double elementSizeOf(const CompiledScene& scene, size_t elements);
+
+// The mesh of a scene, made once for a key, which names all that `size` looks at: it returns the
+// size in metres, or throws.
+std::shared_ptr<const ElementMesh> elementMeshOf(const CompiledScene& scene, const std::string& key,
+                                                 const std::function<double()>& size);
+
+}  // namespace restlab
