@@ -138,6 +138,8 @@ struct PartInfo {
   // Recomputes the donors from the buffers that the frame has left, so that frames cost nothing
   // extra. Empty: the part merges no samples.
   std::function<std::vector<Donor>(const FrameSnapshot&, size_t pixel)> donors;
+  // How far an iterated solution was from the next one, by iteration; empty: the part has none.
+  std::function<std::vector<double>(const FrameSnapshot&)> residuals;
   // Traces the path of the sample that a pixel holds after the frame. Empty: the part keeps none.
   std::function<std::vector<PathVertex>(const FrameSnapshot&, size_t pixel)> path;
 };

@@ -169,6 +169,14 @@ std::vector<PathVertex> Pipeline::path(size_t pixel, const ShownFrame& shown) {
   return {};
 }
 
+std::vector<double> Pipeline::residuals(const ShownFrame& shown) {
+  Copies copies([this](const std::string& name) { return words(name); });
+  for (const PartInfo* part : parts_) {
+    if (part->residuals) return part->residuals(copies.snapshot(shown, paramsOf(*part)));
+  }
+  return {};
+}
+
 std::vector<float> Pipeline::layer(const LayerInfo& info, const ShownFrame& shown) {
   Copies copies([this](const std::string& name) { return words(name); });
   std::vector<float> all(pixels_);

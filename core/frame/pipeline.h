@@ -50,6 +50,8 @@ class Pipeline {
   std::vector<ProbeValue> probe(size_t pixel, const ShownFrame& shown);
   std::vector<Donor> donors(size_t pixel, const ShownFrame& shown);
   std::vector<PathVertex> path(size_t pixel, const ShownFrame& shown);
+  // PartInfo::residuals of the first part that has them.
+  std::vector<double> residuals(const ShownFrame& shown);
   // Values of a part's layer, one per pixel.
   std::vector<float> layer(const LayerInfo& info, const ShownFrame& shown);
 

@@ -14,6 +14,7 @@
 #include "core/frame/host_filter.h"
 #include "core/frame/method.h"
 #include "core/frame/pipeline.h"
+#include "core/frame/stops.h"
 #include "core/gbuffer/view_parts.h"
 #include "core/scene/compiled/compiled_scene.h"
 
@@ -25,20 +26,6 @@ namespace {
 constexpr const char* kAovKernel = "aov";
 const std::vector<std::string> kAovNames = {"radiance", "positionW", "normalW", "albedo", "depth",
                                             "object",   "emission",  "motion",  "ambient"};
-
-// RAII: installs a stop callback for its lifetime.
-class Stops {
- public:
-  Stops(Backend& backend, const std::function<bool()>& isWanted) : backend_(backend) {
-    backend_.stopWhere(isWanted);
-  }
-  ~Stops() { backend_.stopWhere({}); }
-  Stops(const Stops&) = delete;
-  Stops& operator=(const Stops&) = delete;
-
- private:
-  Backend& backend_;
-};
 
 }  // namespace
 
@@ -386,6 +373,11 @@ std::vector<PathVertex> Session::path(uint32_t x, uint32_t y) const {
   for (PathVertex& vertex : path)
     if (!vertex.isDirection) vertex.posW += glm::vec3(m.scene->origin());
   return path;
+}
+
+std::vector<double> Session::residuals() const {
+  Impl& m = *impl_;
+  return m.isFirstFrame ? std::vector<double>{} : m.pipeline->residuals(m.shown());
 }
 
 void Session::setCamera(const SceneCamera& camera) {

@@ -121,6 +121,9 @@ class Session {
   // that reconnects: what lies behind that is kept as its radiance alone. Throws as
   // donors() does; empty if there is none.
   std::vector<PathVertex> path(uint32_t x, uint32_t y) const;
+  // How far an iterated solution was from the next one, by iteration, over the light of the
+  // sources; empty if the method has none, and before the first frame.
+  std::vector<double> residuals() const;
   // Sets the camera from the next frame on; the previous one is kept for reprojection.
   void setCamera(const SceneCamera& camera);
 

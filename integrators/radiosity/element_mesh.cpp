@@ -244,6 +244,17 @@ std::shared_ptr<const ElementMesh> makeElementMesh(const CompiledScene& scene, d
 
 }  // namespace
 
+void requireTriangles(const CompiledScene& scene) {
+  const rl::SceneData& data = scene.data();
+  for (uint32_t i = 0; i < data.instanceCount; ++i) {
+    if (!InstanceTriangles(data, i).isShape()) continue;
+    failInput(
+        fmt::format("radiosity: scene {}: instance '{}' is a shape and has no triangles: "
+                    "restlab convert writes shapes as meshes",
+                    scene.source().name, scene.source().instances.at(i).name));
+  }
+}
+
 ElementCounts countElements(const CompiledScene& scene, double size) {
   ElementCounts counts;
   forEachTriangle(scene, [&](const WorldTriangle& t) {

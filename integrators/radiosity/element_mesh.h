@@ -23,6 +23,9 @@ struct ElementMesh {
   double otherThanLambert = 0.0;  // share of the area whose material is not diffuse alone
 };
 
+// Throws Error (badInput) if some surface is not of triangles.
+void requireTriangles(const CompiledScene& scene);
+
 // Elements and vertices (no fewer than the mesh will have) for a size in metres.
 struct ElementCounts {
   size_t elements = 0, vertices = 0;

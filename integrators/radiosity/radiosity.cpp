@@ -117,6 +117,7 @@ std::shared_ptr<const ElementMesh> meshOf(const RadiositySettings& s, const Comp
   const std::string key = fmt::format("radiosity {:.17g} {} {} {} {} {}", s.elementSize, s.elements,
                                       s.solver, s.factors, s.factorRays, s.memoryMiB);
   return elementMeshOf(scene, key, [&] {
+    requireTriangles(scene);
     const double size = s.elementSize > 0.0 ? s.elementSize : elementSizeOf(scene, s.elements);
     requireRoom(s, scene, size);
     return size;
@@ -308,6 +309,16 @@ std::vector<LayerInfo> radiosityLayers() {
   return {elements, residual};
 }
 
+std::vector<double> radiosityResiduals(const FrameSnapshot& frame) {
+  const std::span<const uint32_t> state = frame.words("state");
+  const std::span<const uint32_t> words = frame.words("residuals");
+  std::vector<double> all;
+  if (state.empty()) return all;
+  const size_t done = std::min<size_t>(state[rl::RL_RADIOSITY_ITERATIONS], words.size());
+  for (size_t i = 0; i < done; ++i) all.push_back(double(std::bit_cast<float>(words[i])));
+  return all;
+}
+
 std::vector<ProbeValue> radiosityProbe(const FrameSnapshot& frame, size_t pixel) {
   SeenElement element;
   const std::span<const uint32_t> state = frame.words("state");
@@ -340,6 +351,7 @@ const IntegratorInfo& radiosityIntegratorInfo() {
     i.reasonUnused = whyUnused;
     i.layers = radiosityLayers();
     i.probe = radiosityProbe;
+    i.residuals = radiosityResiduals;
     i.record = recordRadiosity;
     return i;
   }();

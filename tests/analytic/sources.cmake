@@ -15,5 +15,6 @@ set(RL_ANALYTIC_TESTS
   analytic/truths_test.cpp
   analytic/wax_test.cpp
   analytic/local_test.cpp
+  analytic/radiosity_test.cpp
   scene/gltf_builder.cpp
 )

@@ -118,6 +118,7 @@ TEST(FrameGraph, MistakesOfARecordingAreNamed) {
 // Passes of a still view are among those of a new view, in the same order: tables of times have one
 // column for each.
 TEST(FrameGraph, AStillViewLeavesPassesOut) {
+  const auto scene = CompiledScene::build(makeBuiltinScene("cornell-box"));
   for (const IntegratorInfo* integrator : integratorRegistry()) {
     for (const DenoiserInfo* denoiser : denoiserRegistry()) {
       for (const CacheInfo* cache : cacheRegistry()) {
@@ -131,7 +132,8 @@ TEST(FrameGraph, AStillViewLeavesPassesOut) {
         FrameGraph graph;
         const auto names = [&](bool isNewView) {
           graph.record(withViewParts(method.parts()),
-                       {integrator->modes.front().name, parameters, 64, isNewView});
+                       {integrator->modes.front().name, parameters, 64, isNewView, false,
+                        scene.get(), isNewView ? 0u : 1u, isNewView ? 0u : 1u});
           std::vector<std::string> all;
           for (const GraphPass& pass : graph.passes()) all.push_back(pass.name);
           return all;

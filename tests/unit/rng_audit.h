@@ -17,6 +17,8 @@ namespace rl {
 extern const CpuKernelEntry kernel_path_audited;
 extern const CpuKernelEntry kernel_template_audited;
 extern const CpuKernelEntry kernel_local_audited;
+extern const CpuKernelEntry kernel_radiosity_rays_audited;
+extern const CpuKernelEntry kernel_radiosity_direct_audited;
 extern const CpuKernelEntry kernel_radiance_trace_audited;
 extern const CpuKernelEntry kernel_restir_di_initial_audited;
 extern const CpuKernelEntry kernel_restir_gi_light_edges_audited;

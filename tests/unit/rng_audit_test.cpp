@@ -84,7 +84,7 @@ class AuditedRun {
 
   void frame() {
     record();
-    for (const GraphPass& pass : graph_.passes()) run(pass);
+    for (const size_t pass : graph_.order()) run(graph_.passes()[pass]);
     ++frame_.frame;
     // Every other frame is of a still view.
     frame_.stillFrames = frame_.frame % 2;
@@ -94,10 +94,14 @@ class AuditedRun {
   static rl::CpuKernelTile pixels() { return {0, 0, kWidth, kHeight}; }
 
   void record() {
-    graph_.record(parts_, {mode_, resolved_, kWidth * kHeight, frame_.stillFrames == 0});
+    graph_.record(parts_, {mode_, resolved_, kWidth * kHeight, frame_.stillFrames == 0, false,
+                           scene_.get(), frame_.frame, frame_.frame});
     words_.resize(graph_.buffers().size());
-    for (size_t i = 0; i < words_.size(); ++i)
-      words_[i].resize(graph_.buffers()[i].bytes() / sizeof(uint32_t));
+    for (size_t i = 0; i < words_.size(); ++i) {
+      const GraphBuffer& buffer = graph_.buffers()[i];
+      if (buffer.contents && words_[i].empty()) words_[i] = *buffer.contents;
+      words_[i].resize(buffer.bytes() / sizeof(uint32_t));
+    }
   }
 
   void run(const GraphPass& pass) {
@@ -228,6 +232,19 @@ TEST(RngAudit, Local) {
       expectNoRepeats({name, audited}, std::string("local, ") + shading + ", " + name);
     }
   }
+}
+
+// All draws are those of the first frame, when it solves.
+TEST(RngAudit, Radiosity) {
+  const std::map<std::string, rl::CpuKernelEntry> kernels = {
+      {"factors", rl::kernel_radiosity_rays_audited},
+      {"direct", rl::kernel_radiosity_direct_audited}};
+  const ParameterMap few = {{"elements", int64_t{64}}, {"factor_rays", int64_t{64}}};
+  AuditedRun run("cornell-box", {"radiosity", "biased", kernels, "", few});
+  recorded.clear();
+  run.frame();
+  EXPECT_GT(recorded.size(), size_t{10000});
+  EXPECT_TRUE(takeRepeated().empty());
 }
 
 TEST(RngAudit, RestirGi) {

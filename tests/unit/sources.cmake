@@ -34,6 +34,8 @@ list(APPEND RL_UNIT_TESTS
   rng_audit_local.cpp
   rng_audit_path.cpp
   rng_audit_radiance_trace.cpp
+  rng_audit_radiosity_direct.cpp
+  rng_audit_radiosity_rays.cpp
   rng_audit_restir_spatial_shift.cpp
   rng_audit_restir_cache_update.cpp
   rng_audit_restir_di_initial.cpp
@@ -60,6 +62,7 @@ list(APPEND RL_UNIT_TESTS
   curves_test.cpp
   field_grid_test.cpp
   distance_grid_test.cpp
+  form_factor_test.cpp
 )
 
 # They set macros for the kernels that they include.

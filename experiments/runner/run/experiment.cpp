@@ -34,7 +34,20 @@ std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>&
     for (const auto& frame : frames) times.push_back(frame.at(pass).timeMs);
     medians[pass].timeMs = median(times);
   }
+  std::erase_if(medians, [](const PassTiming& pass) { return pass.isOnce; });
   return medians;
+}
+
+// Adds the work for the scene of a frame to that of the frames before it.
+void addSceneWork(const FrameStats& stats, std::vector<PassTiming>& passes) {
+  if (passes.empty()) {
+    passes = stats.passes;
+    std::erase_if(passes, [](const PassTiming& pass) { return !pass.isOnce; });
+    return;
+  }
+  size_t next = 0;
+  for (const PassTiming& pass : stats.passes)
+    if (pass.isOnce) passes.at(next++).timeMs += pass.timeMs;
 }
 
 // Returns the age at which the error of this frame is recorded, 0 if it is not.
@@ -162,7 +175,8 @@ struct BlockExecutor::Impl {
   };
 
   void take(size_t m, uint32_t frame, const FrameStats& stats, RunResult& result, Frames& frames) {
-    frames.timeMs += stats.timeMs;
+    frames.timeMs += stats.timeMs + stats.sceneMs;
+    if (suite.timing) addSceneWork(stats, result.scenePasses);
     const bool isTimed = frame >= suite.warmupFrames;
     (isTimed ? result.health : result.warmupHealth).add(stats);
     if (isTimed) {
@@ -268,6 +282,7 @@ struct BlockExecutor::Impl {
     for (size_t m = 0; m < count; ++m) {
       JobMethod& method = data.methods.emplace_back();
       measure(results[m], frames[m], method.measured);
+      results[m].residuals = sessions[m]->residuals();
       method.metadata = imageMetadata(sceneAt(block.lights, prepared, suite.warmupFrames),
                                       *sessions[m], results[m]);
       if (const auto camera = measuredCamera(suite, block)) {

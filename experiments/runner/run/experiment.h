@@ -80,6 +80,8 @@ struct RunResult {
   std::vector<std::pair<std::string, MetricValue>> figures;  // further metrics of the measured
                                                              // frame
   std::vector<PassTiming> passes;                            // median over the timed frames
+  std::vector<PassTiming> scenePasses;                       // work for the scene, over all frames
+  std::vector<double> residuals;                             // Session::residuals()
   HealthSum health;                                          // over the timed frames
   HealthSum warmupHealth;                                    // over the warm-up frames
 };

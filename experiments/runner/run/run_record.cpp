@@ -98,13 +98,16 @@ Json timesJson(const RunResult& run, const std::string& backend) {
   if (run.timesMs.empty()) return {{"clock", "not measured"}, {"frames", Json::array()}};
   Json passes = Json::object();
   for (const PassTiming& pass : run.passes) passes[pass.name] = pass.timeMs;
+  Json forScene = Json::object();
+  for (const PassTiming& pass : run.scenePasses) forScene[pass.name] = pass.timeMs;
   const std::string clock =
       backend == "vulkan" ? "the device's timestamps, steady where it has none" : "steady";
   return {{"clock", clock + ", passes only: no metrics, no files"},
           {"median", median(run.timesMs)},
           {"p95", percentile(run.timesMs, 0.95)},
           {"frames", run.timesMs},
-          {"passes_median", passes}};
+          {"passes_median", passes},
+          {"passes_for_the_scene", forScene}};
 }
 
 Json healthJson(const HealthSum& sum) {
@@ -237,6 +240,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["path_rays_per_pixel"] = double(run.health.raysPath) / samples;
   line["shadow_rays_per_pixel"] = double(run.health.raysShadow) / samples;
   if (run.temporal) line["temporal"] = temporalJson(*run.temporal);
+  if (!run.residuals.empty()) line["residuals"] = run.residuals;
   line["health"] = healthJson(run.health);
   line["health_of_warmup"] = healthJson(run.warmupHealth);
   lines.push_back(std::move(line));
@@ -279,7 +283,11 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     if (!run.timesMs.empty()) {
       for (const auto& [name, timeMs] : line.at("time_ms").at("passes_median").items())
         run.passes.push_back({name, timeMs.get<double>(), 0, 0});
+      const Json forScene = line.at("time_ms").value("passes_for_the_scene", Json::object());
+      for (const auto& [name, timeMs] : forScene.items())
+        run.scenePasses.push_back({name, timeMs.get<double>(), 0, 0, true});
     }
+    run.residuals = line.value("residuals", std::vector<double>());
     run.health.health = healthOf(line.at("health"));
     run.warmupHealth.health = healthOf(line.at("health_of_warmup"));
     run.health.raysPath = line.at("rays_path").get<uint64_t>();

@@ -11,12 +11,14 @@ namespace {
 
 using Row = MethodSummary;
 
-std::string passesText(const Row& row) {
+std::string textOfPasses(const std::vector<PassTiming>& passes) {
   std::string text;
-  for (const PassTiming& pass : row.passes)
+  for (const PassTiming& pass : passes)
     text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", pass.name, pass.timeMs);
   return text;
 }
+std::string passesText(const Row& row) { return textOfPasses(row.passes); }
+std::string scenePassesText(const Row& row) { return textOfPasses(row.scenePasses); }
 
 // Images of other programs have no buffers here.
 ColumnValue bytesPerPixelOf(const Row& row) {
@@ -188,7 +190,18 @@ Columns frameColumns() {
        .reportKey = "bytes",
        .better = "lower",
        .help = "of all buffers"},
-      {.key = "passes_ms_median", .get = passesText, .unit = "ms", .help = "median of each pass"}};
+      {.key = "passes_ms_median", .get = passesText, .unit = "ms", .help = "median of each pass"},
+      {.key = "scene_ms",
+       .get = [](const Row& row) { return only(row.sceneMs); },
+       .title = "time once a scene",
+       .unit = "ms",
+       .better = "lower",
+       .help = "work for the scene, of which no frame is the owner: factors of radiosity, say",
+       .ranked = Ranked::measured},
+      {.key = "scene_passes_ms",
+       .get = scenePassesText,
+       .unit = "ms",
+       .help = "of each pass of that work, over all frames"}};
 }
 
 Columns figureColumns(const Suite& suite) {

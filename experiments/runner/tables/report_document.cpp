@@ -186,6 +186,26 @@ void addAgePlots(const std::vector<MethodSummary>& rows, Json& plots) {
   if (!average["series"].empty()) plots.push_back(std::move(average));
 }
 
+// How far iterated solutions were from the next one.
+void addResiduals(const std::vector<MethodSummary>& rows, Json& plots) {
+  Json series = Json::array();
+  for (const MethodSummary& row : rows) {
+    Json points = Json::array();
+    for (size_t i = 0; i < row.residuals.size(); ++i) {
+      const double value = row.residuals[i];
+      if (value > 0.0) points.push_back({double(i + 1), value, value, value});
+    }
+    if (!points.empty()) series.push_back({{"name", row.method->name}, {"points", points}});
+  }
+  if (series.empty()) return;
+  plots.push_back(
+      {{"id", "residual"},
+       {"title", "residual by iteration"},
+       {"x", {{"title", "iterations"}, {"log", true}}},
+       {"y", {{"title", "light that is missing / light of the sources"}, {"log", true}}},
+       {"series", std::move(series)}});
+}
+
 Json correlations(const std::vector<MethodSummary>& rows) {
   Json series = Json::array();
   for (const MethodSummary& row : rows) {
@@ -291,6 +311,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
         [](const ConvergencePoint& point) { return double(point.frames); }, false));
   }
   addAgePlots(rows, plots);
+  addResiduals(rows, plots);
   if (suite.timing) plots.push_back(singleFrames(rows));
   const bool isStill = !suite.hasMovingCamera();
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));

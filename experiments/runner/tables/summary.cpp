@@ -36,6 +36,19 @@ double runTimeRatio(const RunResult& run, const RunResult& other) {
   return median(ratios);
 }
 
+void summariseSceneWork(const MethodResult& result, MethodSummary& row) {
+  row.residuals = result.runs.front().residuals;
+  if (std::isnan(row.timeMsMedian)) return;
+  row.scenePasses = result.runs.front().scenePasses;
+  row.sceneMs = 0.0;
+  for (size_t pass = 0; pass < row.scenePasses.size(); ++pass) {
+    std::vector<double> times;
+    for (const RunResult& run : result.runs) times.push_back(run.scenePasses.at(pass).timeMs);
+    row.scenePasses[pass].timeMs = median(times);
+    row.sceneMs += row.scenePasses[pass].timeMs;
+  }
+}
+
 void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& row) {
   std::vector<double> times;
   for (const RunResult& run : result.runs) {
@@ -55,6 +68,7 @@ void summariseTimes(const MethodResult& result, size_t pixels, MethodSummary& ro
   const double samples = double(row.timedFrames) * double(pixels);
   row.raysPathPerPixel = double(row.health.raysPath) / samples;
   row.raysShadowPerPixel = double(row.health.raysShadow) / samples;
+  summariseSceneWork(result, row);
   row.passes = result.runs.front().passes;
   for (size_t pass = 0; pass < row.passes.size(); ++pass) {
     std::vector<double> medians;

@@ -86,8 +86,11 @@ struct MethodSummary {
   std::vector<std::pair<std::string, Interval>> figures;
 
   double raysPathPerPixel = kUnknown, raysShadowPerPixel = kUnknown;
-  std::vector<PassTiming> passes;  // scaled to add up to timeMsMedian
-  HealthSum health;                // over all timed frames
+  std::vector<PassTiming> passes;       // scaled to add up to timeMsMedian
+  std::vector<PassTiming> scenePasses;  // work for the scene: medians over runs
+  double sceneMs = kUnknown;            // their sum
+  std::vector<double> residuals;        // of the first run, by iteration
+  HealthSum health;                     // over all timed frames
   uint64_t timedFrames = 0;
 
   std::vector<std::string> flags;  // why the row does not count, and warnings
