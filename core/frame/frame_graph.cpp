@@ -107,6 +107,12 @@ Buffer FrameGraph::buffer(const std::string& name, size_t count, uint32_t elemen
   return declare({name, "", count, elementBytes, features, false, false, {}});
 }
 
+Buffer FrameGraph::onceBuffer(const std::string& name, size_t count, uint32_t elementBytes) {
+  GraphBuffer wanted = {name, "", count, elementBytes, 0, false, false, {}};
+  wanted.isOnce = true;
+  return declare(wanted);
+}
+
 Buffer FrameGraph::transient(const std::string& name, size_t count, uint32_t elementBytes,
                              rl::FeatureMask features) {
   return declare({name, "", count, elementBytes, features, false, true, {}});

@@ -72,6 +72,7 @@ struct GraphBuffer {
   bool isHistory = false;
   bool isTransient = false;                                    // holds nothing between frames
   std::shared_ptr<const std::vector<uint32_t>> contents = {};  // from the host; null: zero at first
+  bool isOnce = false;                                         // FrameGraph::onceBuffer
 
   size_t bytes() const { return count * elementBytes; }
 };
@@ -138,6 +139,9 @@ class FrameGraph {
   // contents stay until a pass writes it.
   Buffer buffer(const std::string& name, size_t count, uint32_t elementBytes,
                 rl::FeatureMask features = 0);
+  // Declares a buffer that passes write, as a whole, only in frames whose sceneAge or lightAge is
+  // 0: a frame that is undone need not restore it.
+  Buffer onceBuffer(const std::string& name, size_t count, uint32_t elementBytes);
   // Declares a buffer whose contents nobody needs after the frame's passes, except to look at the
   // frame before the next one begins. It may share memory: shareMemory().
   Buffer transient(const std::string& name, size_t count, uint32_t elementBytes,

@@ -25,6 +25,8 @@ struct IntegratorInfo : PartInfo {
   // Light that the method does not look for, in words; "": none. Tests of the mean do not apply to
   // it.
   std::string leavesOut;
+  // Same light for one scene; "": the scene has none of it. Empty: `leavesOut`.
+  std::function<std::string(const CompiledScene&, const ParameterMap&)> leavesOutOf;
   bool usesCache = false;  // keeps reservoirs in a cache
   bool endsPaths = false;  // paths may end in cells of the radiance cache (core/radiance_cache)
   // Bias class if it depends on parameters; empty: the class of the mode.

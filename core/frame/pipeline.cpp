@@ -78,6 +78,11 @@ size_t Pipeline::ownBytes(const FrameGraph& graph, size_t index) const {
   return isOwn ? buffer.bytes() : 0;
 }
 
+size_t Pipeline::copyBytes(size_t index) const {
+  const GraphBuffer& buffer = graph_.buffers()[index];
+  return buffer.contents || buffer.isOnce ? 0 : ownBytes(graph_, index);
+}
+
 BufferId Pipeline::idOf(Buffer buffer) const {
   if (!buffer) return kNoBuffer;
   const Buffer lender = graph_.lenderOf(buffer);
@@ -236,7 +241,7 @@ void Pipeline::clear() {
 std::vector<std::pair<BufferId, BufferId>> Pipeline::withCopies() const {
   std::vector<std::pair<BufferId, BufferId>> pairs;
   for (size_t i = 0; i < ids_.size(); ++i) {
-    if (ids_[i] != kNoBuffer) pairs.emplace_back(ids_[i], copies_[i]);
+    if (copies_[i] != kNoBuffer) pairs.emplace_back(ids_[i], copies_[i]);
   }
   return pairs;
 }
@@ -245,7 +250,7 @@ void Pipeline::keep() {
   if (!kept_) {
     std::vector<BufferId> copies;
     for (size_t i = 0; i < graph_.buffers().size(); ++i) {
-      const size_t bytes = ownBytes(graph_, i);
+      const size_t bytes = copyBytes(i);
       copies.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
     }
     copies_ = std::move(copies);

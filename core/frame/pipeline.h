@@ -64,8 +64,8 @@ class Pipeline {
   void prepare(StartupReport& report);
   // Zeroes every buffer but the host's tables.
   void clear();
-  // Copies every buffer. The first call allocates as much memory again as allocate() did, and
-  // throws as Backend::allocate() does.
+  // Copies every buffer that frames change. The first call allocates as much memory again as
+  // allocate() did, and throws as Backend::allocate() does.
   void keep();
   bool hasCopies() const { return kept_.has_value(); }
   // Restores the snapshot taken by keep(); later frames are discarded.
@@ -99,6 +99,8 @@ class Pipeline {
   bool isUsed(const GraphBuffer& buffer) const;
   // Bytes that are allocated for the buffer itself.
   size_t ownBytes(const FrameGraph& graph, size_t index) const;
+  // Bytes of the buffer's copy for keep().
+  size_t copyBytes(size_t index) const;
   BufferId idOf(Buffer buffer) const;
   // Feature mask of the kernel that serves the scene.
   rl::FeatureMask maskOf(const std::string& kernel);

@@ -456,6 +456,12 @@ DrawnLights Session::drawnLights() const {
   return restlab::drawnLights(*impl_->scene, words);
 }
 
+std::string Session::lightLeftOut() const {
+  const IntegratorInfo& info = *impl_->method.integrator;
+  if (!info.leavesOutOf) return info.leavesOut;
+  return info.leavesOutOf(*impl_->scene, impl_->config.parameters);
+}
+
 rl::FeatureMask Session::featuresNeeded() const { return impl_->needed; }
 rl::FeatureMask Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
 size_t Session::codeBytes() const {

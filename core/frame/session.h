@@ -144,6 +144,8 @@ class Session {
   Image aov(const std::string& name) const;
   static const std::vector<std::string>& aovNames();  // without the layers of a method
 
+  // Light of the scene that the method does not look for, in words (IntegratorInfo::leavesOut).
+  std::string lightLeftOut() const;
   // Lights that light samples were drawn from, since the session was opened or resized.
   DrawnLights drawnLights() const;
   rl::FeatureMask featuresNeeded() const;

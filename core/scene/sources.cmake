@@ -97,6 +97,7 @@ add_library(rl_scene_files OBJECT
   scene/builtin/builtin.cpp
   scene/builtin/builder.cpp
   scene/builtin/cornell.cpp
+  scene/builtin/course.cpp
   scene/builtin/courtyard.cpp
   scene/builtin/door.cpp
   scene/builtin/floor.cpp

@@ -1,7 +1,8 @@
 // Pass over chunks of the samples of an unknown, once for the light of a scene: the irradiance that
 // lights and ambient light give it. As in `path`, light samples with shadow rays and
 // cosine-weighted rays that find lights go together by the power heuristic: next to a lamp the
-// latter alone have little noise. Light samples are those of `path`.
+// latter alone have little noise. Light samples are those of `path`. Draws do not depend on the
+// frame: a lamp that is switched twice leaves no trace.
 #include "integrators/radiosity/mesh.glsl"
 
 // What a ray of a hemisphere found, times cosine over density, with its weight.
@@ -27,7 +28,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint unknown = entry / gParams.lightChunks;
   if (unknown >= gParams.unknowns) return;
   Surface at = meshUnknown(unknown);
-  Rng rng = rngInit(gFrame.seed, unknown, gFrame.frame);
+  Rng rng = rngInit(gFrame.seed, unknown, 0u);
   uint first = (entry % gParams.lightChunks) * RL_RADIOSITY_CHUNK;
   vec3 sum = vec3(0.0f, 0.0f, 0.0f);
   // Two rays a sample: to a light and into the hemisphere.

@@ -25,6 +25,9 @@ using Point = glm::dvec3;
 constexpr double kInward = 1.0 / 32.0;
 // Two shading normals of one smooth surface: the cosine of 3 degrees.
 constexpr double kSmoothCosine = 0.99863;
+// Triangles that share vertices by cells, and those cells, over the size of elements; the cosine of
+// 25 degrees.
+constexpr double kFine = 0.25, kCell = 0.5, kCellCosine = 0.9063;
 // Divisions of an edge: their number has 15 bits.
 constexpr double kMostDivisions = 32767.0;
 
@@ -128,6 +131,7 @@ class MeshBuilder {
 
   void beginInstance() {
     shared_.clear();
+    cells_.clear();
     mesh_.instances.push_back(static_cast<uint32_t>(mesh_.triangles.size() / 2));
   }
 
@@ -180,11 +184,15 @@ class MeshBuilder {
       p = onEdge(b, c, j, n);
     const auto& [na, nb, nc] = t.normals;
     const Point normal = glm::normalize(na * (1.0 - u - v) + nb * u + nc * v);
+    const bool isFine = t.longest < kFine * mesh_.size;
     std::vector<Known>* known = nullptr;
     if (!isInside) {
-      known = &shared_[{p.x, p.y, p.z}];
+      const Point cell = glm::floor(p / (kCell * mesh_.size));
+      const Point& key = isFine ? cell : p;
+      known = &(isFine ? cells_ : shared_)[{key.x, key.y, key.z}];
       for (const Known& other : *known)
-        if (glm::dot(other.normal, normal) > kSmoothCosine) return other.vertex;
+        if (glm::dot(other.normal, normal) > (isFine ? kCellCosine : kSmoothCosine))
+          return other.vertex;
     }
     const uint32_t index = static_cast<uint32_t>(mesh_.vertexCount++);
     if (known != nullptr) known->push_back({normal, index});
@@ -217,9 +225,41 @@ class MeshBuilder {
   }
 
   ElementMesh& mesh_;
-  std::map<Key, std::vector<Known>> shared_;  // of this instance
+  std::map<Key, std::vector<Known>> shared_, cells_;  // of this instance
   std::vector<double> areas_;
 };
+
+}  // namespace
+
+void requireTriangles(const CompiledScene& scene) {
+  const rl::SceneData& data = scene.data();
+  for (uint32_t i = 0; i < data.instanceCount; ++i) {
+    if (!InstanceTriangles(data, i).isShape()) continue;
+    failInput(
+        fmt::format("radiosity: scene {}: instance '{}' is a shape and has no triangles: "
+                    "restlab convert writes shapes as meshes",
+                    scene.source().name, scene.source().instances.at(i).name));
+  }
+}
+
+size_t countElements(const CompiledScene& scene, double size) {
+  size_t count = 0;
+  forEachTriangle(scene, [&](const WorldTriangle& t) {
+    const size_t n = divisionsOf(t, size);
+    count += n * n;
+  });
+  return count;
+}
+
+double elementSizeOf(const CompiledScene& scene, size_t elements) {
+  double area = 0.0;
+  forEachTriangle(scene, [&](const WorldTriangle& t) { area += t.area; });
+  if (!(area > 0.0)) {
+    failInput(fmt::format("radiosity: scene {} has no triangle with an area", scene.source().name));
+  }
+  // Elements are half squares of that area, with the diagonal as their longest edge.
+  return std::sqrt(4.0 * area / double(elements));
+}
 
 std::shared_ptr<const ElementMesh> makeElementMesh(const CompiledScene& scene, double size) {
   auto mesh = std::make_shared<ElementMesh>();
@@ -240,46 +280,6 @@ std::shared_ptr<const ElementMesh> makeElementMesh(const CompiledScene& scene, d
   builder.finish();
   mesh->otherThanLambert = mesh->areaM2 > 0.0 ? other / mesh->areaM2 : 0.0;
   return mesh;
-}
-
-}  // namespace
-
-void requireTriangles(const CompiledScene& scene) {
-  const rl::SceneData& data = scene.data();
-  for (uint32_t i = 0; i < data.instanceCount; ++i) {
-    if (!InstanceTriangles(data, i).isShape()) continue;
-    failInput(
-        fmt::format("radiosity: scene {}: instance '{}' is a shape and has no triangles: "
-                    "restlab convert writes shapes as meshes",
-                    scene.source().name, scene.source().instances.at(i).name));
-  }
-}
-
-ElementCounts countElements(const CompiledScene& scene, double size) {
-  ElementCounts counts;
-  forEachTriangle(scene, [&](const WorldTriangle& t) {
-    const size_t n = divisionsOf(t, size);
-    counts.elements += n * n;
-    counts.vertices += (n + 1) * (n + 2) / 2;
-  });
-  return counts;
-}
-
-double elementSizeOf(const CompiledScene& scene, size_t elements) {
-  double area = 0.0;
-  forEachTriangle(scene, [&](const WorldTriangle& t) { area += t.area; });
-  if (!(area > 0.0)) {
-    failInput(fmt::format("radiosity: scene {} has no triangle with an area", scene.source().name));
-  }
-  // Elements are half squares of that area, with the diagonal as their longest edge.
-  return std::sqrt(4.0 * area / double(elements));
-}
-
-std::shared_ptr<const ElementMesh> elementMeshOf(const CompiledScene& scene, const std::string& key,
-                                                 const std::function<double()>& size) {
-  const auto made = scene.derived(
-      key, [&] { return std::static_pointer_cast<const void>(makeElementMesh(scene, size())); });
-  return std::static_pointer_cast<const ElementMesh>(made);
 }
 
 }  // namespace restlab

@@ -23,7 +23,7 @@ constexpr uint32_t kGaussSeidel = 1;
 constexpr double kMiB = 1048576.0;
 // Loops over all elements must end before some drivers end them.
 constexpr size_t kMostPolygonElements = 60000;
-constexpr size_t kMostElements = size_t{1} << 24u;
+constexpr size_t kMostElements = size_t{1} << 22u;
 
 struct RadiositySettings {
   uint32_t solver = 0;
@@ -75,7 +75,7 @@ const Schema<RadiositySettings>& schema() {
       P(&S::iterationsPerFrame, "iterations_per_frame", Range{0.0, 4096.0},
         "0: all in the first frame; else the solution grows from frame to frame",
         "viewers show it grow"),
-      P(&S::memoryMiB, "memory_mib", Range{1.0, 1048576.0}, "MiB that factors may take",
+      P(&S::memoryMiB, "memory_mib", Range{1.0, 16000.0}, "MiB that factors may take",
         "half of a small machine")};
   return all;
 }
@@ -93,35 +93,47 @@ double factorBytes(const RadiositySettings& s, double elements, double vertices)
   return 2.0 * vertices * double(squareSide(s.factorRays)) * squareSide(s.factorRays) * 8.0;
 }
 
-// Refuses a mesh that would not fit, with a size that does.
-void requireRoom(const RadiositySettings& s, const CompiledScene& scene, double size) {
-  const ElementCounts counts = countElements(scene, size);
-  const double mib = factorBytes(s, double(counts.elements), double(counts.vertices)) / kMiB;
+// Refuses a mesh that does not fit, with a size that does.
+[[noreturn]] void failTooLarge(const RadiositySettings& s, const CompiledScene& scene, double size,
+                               size_t elements, double mib) {
   const bool isPolygon = keepsFactors(s) && s.factors == rl::RL_RADIOSITY_POLYGON;
   const size_t most = isPolygon ? kMostPolygonElements : kMostElements;
-  if (counts.elements <= most && mib <= s.memoryMiB) return;
-  const double tooMany =
-      std::max(double(counts.elements) / double(most), mib / double(s.memoryMiB));
+  const double tooMany = std::max(double(elements) / double(most), mib / double(s.memoryMiB));
   // Factors by polygons grow with the square of the number of elements.
   const double larger = size * (isPolygon ? std::pow(tooMany, 0.25) : std::sqrt(tooMany)) * 1.05;
   failUsage(fmt::format(
       "radiosity.element_size = {:.4g}: {} elements in scene {} take {:.0f} MiB of factors "
-      "(memory_mib = {}, at most {} elements): element_size = {:.2g} {}",
-      size, counts.elements, scene.source().name, mib, s.memoryMiB, most, larger,
-      keepsFactors(s) && counts.elements <= kMostElements
-          ? "would do, or solver = southwell, which keeps none"
-          : "would do"));
+      "(memory_mib = {}, at most {} elements): element_size = {:.2g}{} may do",
+      size, elements, scene.source().name, mib, s.memoryMiB, most, larger,
+      keepsFactors(s) && elements <= kMostElements ? " or solver = southwell, which keeps none,"
+                                                   : ""));
 }
 
+std::shared_ptr<const ElementMesh> makeMesh(const RadiositySettings& s,
+                                            const CompiledScene& scene) {
+  requireTriangles(scene);
+  const double size = s.elementSize > 0.0 ? s.elementSize : elementSizeOf(scene, s.elements);
+  const bool isPolygon = keepsFactors(s) && s.factors == rl::RL_RADIOSITY_POLYGON;
+  const auto mibOf = [&](size_t elements, double vertices) {
+    return factorBytes(s, double(elements), vertices) / kMiB;
+  };
+  // A mesh has about half as many vertices as elements.
+  const size_t elements = countElements(scene, size);
+  if (elements > (isPolygon ? kMostPolygonElements : kMostElements))
+    failTooLarge(s, scene, size, elements, mibOf(elements, 0.5 * double(elements)));
+  std::shared_ptr<const ElementMesh> mesh = makeElementMesh(scene, size);
+  const double mib = mibOf(elements, double(mesh->vertexCount));
+  if (mib > s.memoryMiB) failTooLarge(s, scene, size, elements, mib);
+  return mesh;
+}
+
+// The mesh of a scene, made once for the parameters that it depends on.
 std::shared_ptr<const ElementMesh> meshOf(const RadiositySettings& s, const CompiledScene& scene) {
   const std::string key = fmt::format("radiosity {:.17g} {} {} {} {} {}", s.elementSize, s.elements,
                                       s.solver, s.factors, s.factorRays, s.memoryMiB);
-  return elementMeshOf(scene, key, [&] {
-    requireTriangles(scene);
-    const double size = s.elementSize > 0.0 ? s.elementSize : elementSizeOf(scene, s.elements);
-    requireRoom(s, scene, size);
-    return size;
-  });
+  const auto made =
+      scene.derived(key, [&] { return std::static_pointer_cast<const void>(makeMesh(s, scene)); });
+  return std::static_pointer_cast<const ElementMesh>(made);
 }
 
 // A table of the mesh, which holds the mesh as long as a graph holds the table.
@@ -166,10 +178,11 @@ void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
       g.table("elements", tableOf(mesh, mesh->elements), 16 * rl::RL_RADIOSITY_ELEMENT_UVEC4S);
   const Buffer vertices = g.table("element_vertices", tableOf(mesh, mesh->vertices),
                                   16 * rl::RL_RADIOSITY_VERTEX_UVEC4S);
-  const Buffer albedo = g.buffer("element_albedo", elements, vec3);
-  const Buffer hits = g.buffer("factor_rays", isSouthwell || isPolygon ? 0 : unknowns * rays, 8);
-  const Buffer factors = g.buffer("factors", isPolygon ? unknowns * elements : 0, 4);
-  const Buffer direct = g.buffer("light_samples", unknowns * lightChunks, vec3);
+  const Buffer albedo = g.onceBuffer("element_albedo", elements, vec3);
+  const Buffer hits =
+      g.onceBuffer("factor_rays", isSouthwell || isPolygon ? 0 : unknowns * rays, 8);
+  const Buffer factors = g.onceBuffer("factors", isPolygon ? unknowns * elements : 0, 4);
+  const Buffer direct = g.onceBuffer("light_samples", unknowns * lightChunks, vec3);
   const Buffer source = g.buffer("source_irradiance", unknowns, vec3);
   const Buffer irradiance = g.buffer("irradiance", unknowns, vec3);
   const Buffer pending = g.buffer("next_irradiance", isSouthwell ? 0 : unknowns, vec3);
@@ -347,6 +360,12 @@ const IntegratorInfo& radiosityIntegratorInfo() {
         {"biased", BiasClass::biased,
          "every surface reflects as Lambert's, and light varies linearly within an element"}};
     i.leavesOut = "all reflection that is not diffuse";
+    i.leavesOutOf = [](const CompiledScene& scene, const ParameterMap& parameters) {
+      const double share = meshOf(schema().read(parameters), scene)->otherThanLambert;
+      if (share == 0.0) return std::string();
+      return fmt::format("reflection that is not diffuse, of {:.2g} % of the surfaces",
+                         100.0 * share);
+    };
     i.parameters = schema().infos();
     i.reasonUnused = whyUnused;
     i.layers = radiosityLayers();

@@ -10,7 +10,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
   uint unknown = entry / chunks;
   if (unknown >= gParams.unknowns) return;
   Surface from = meshUnknown(unknown);
-  Rng rng = rngInit(gFrame.seed, unknown, gFrame.frame);
+  Rng rng = rngInit(gFrame.seed, unknown, 0u);
   uint first = (entry % chunks) * RL_RADIOSITY_CHUNK;
   uint end = RL_LESSER(first + RL_RADIOSITY_CHUNK, rays);
   float step = 1.0f / float(gParams.raysPerSide);

@@ -1,4 +1,4 @@
-// Caches with entries, for sessions of a few pixels.
+// Caches with entries, and meshes of elements, for sessions of a few pixels.
 #pragma once
 
 #include <algorithm>
@@ -32,6 +32,22 @@ inline void useFewEntries(SessionConfig& config) {
   for (const ParameterInfo& p : findMethod(config).parameters())
     if (p.name == kEntryCount || p.name == "radiance_entries")
       config.parameters[p.name] = int64_t(entries);
+}
+
+// Returns whether a method lights elements of a mesh, which reach through walls that are set on
+// them.
+inline bool hasElements(const SessionConfig& config) {
+  const std::vector<ParameterInfo> all = findMethod(config).parameters();
+  return std::any_of(all.begin(), all.end(),
+                     [](const ParameterInfo& p) { return p.name == "element_size"; });
+}
+
+// Sets so few elements, with so few rays, that solving takes no time.
+inline void useFewElements(SessionConfig& config) {
+  if (!hasElements(config)) return;
+  config.parameters["elements"] = int64_t{128};
+  config.parameters["factor_rays"] = int64_t{64};
+  config.parameters["light_samples"] = int64_t{16};
 }
 
 }  // namespace restlab::bias

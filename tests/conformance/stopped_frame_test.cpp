@@ -52,9 +52,13 @@ TEST_P(StoppedFrames, LeaveNoTrace) {
     ++looks;
     return false;
   };
-  ASSERT_TRUE(stopped.frameUnless(count));
-  whole.frame();
-  expectSame(stopped, whole);
+  // The first frame may do work for the scene.
+  for (int frame = 0; frame < 2; ++frame) {
+    looks = 0;
+    ASSERT_TRUE(stopped.frameUnless(count));
+    whole.frame();
+    expectSame(stopped, whole);
+  }
   ASSERT_GT(looks, 5u);
   uint32_t stops = 0;
   for (uint32_t frame = 1; frame < 9; ++frame) {

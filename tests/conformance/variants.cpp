@@ -107,6 +107,7 @@ SessionConfig configOf(const Variant& variant, uint32_t width, uint32_t height) 
   config.height = height;
   config.threads = 1;
   bias::useFewEntries(config);
+  bias::useFewElements(config);
   return config;
 }
 

@@ -184,6 +184,7 @@ SessionConfig configOf(const Combination& what, const Machine& where, uint32_t w
   config.height = height;
   config.seed = seed;
   bias::useFewEntries(config);
+  bias::useFewElements(config);
   return config;
 }
 

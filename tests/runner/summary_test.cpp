@@ -192,6 +192,7 @@ TEST_F(SummaryTest, NoBiasBelowTheErrorOfAnExactImage) {
 
 TEST_F(SummaryTest, RowsSayWhatLightTheyLeaveOut) {
   suite_.methods[1].session.integrator = "local";
+  block_.methods[1].lightLeftOut = "light of more than one rough surface";
   const MethodSummary row = summarise(suite_, block_)[1];
   EXPECT_FALSE(row.counts);
   ASSERT_EQ(row.flags.size(), 1u);

@@ -64,6 +64,8 @@ TEST(FeatureScan, BuiltinScenes) {
        rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"glass", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION |
                     rl::RL_FEATURE_VOLUME | rl::RL_FEATURE_SMOOTH_NORMALS},
+      {"course", rl::RL_FEATURE_AREA_LIGHTS | rl::RL_FEATURE_GLOSSY | rl::RL_FEATURE_TRANSMISSION |
+                     rl::RL_FEATURE_SMOOTH_NORMALS},
       {"courtyard", rl::RL_FEATURE_PUNCTUAL_LIGHTS | rl::RL_FEATURE_ENVIRONMENT |
                         rl::RL_FEATURE_INSTANCES | rl::RL_FEATURE_SMOOTH_NORMALS},
       {"furnace", rl::RL_FEATURE_AREA_LIGHTS},

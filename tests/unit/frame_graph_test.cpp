@@ -7,6 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/frame/method.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/scene.h"
 #include "core/gbuffer/view_parts.h"
 
 namespace restlab::unit {

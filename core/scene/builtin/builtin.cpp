@@ -29,7 +29,7 @@ uint32_t wholeNumber(const BuiltinName& name, const char* parameter) {
   return uint32_t(std::lround(name.value(parameter).value()));
 }
 
-const std::array<Entry, 18> kScenes{{
+const std::array<Entry, 19> kScenes{{
     {"cornell-box", fixed<builtin::makeCornellBox>,
      "the Cornell box in metres, Lambert, one ceiling light"},
     {"door-ajar", fixed<builtin::makeDoorAjar>,
@@ -43,6 +43,8 @@ const std::array<Entry, 18> kScenes{{
      "metals and plastics of roughness 0.05 to 0.8 under five area lights"},
     {"glass", fixed<builtin::makeGlass>,
      "smooth, frosted and tinted glass before a mirror, one area light"},
+    {"course", fixed<builtin::makeCourse>,
+     "a lamp, matte walls, a ball of glass and a mirror ball: all light of a lecture"},
     {"courtyard", fixed<builtin::makeCourtyard>,
      "an arcade around a sunlit court under a clear sky: sun and environment"},
     {"furnace",

@@ -15,6 +15,7 @@ Scene makeDoorAjar();
 Scene makeManyLights(int lamps);
 Scene makeGlossyGallery();
 Scene makeGlass();
+Scene makeCourse();
 Scene makeCourtyard();
 struct FurnaceShape {
   double albedo = 0.5;

@@ -152,6 +152,7 @@ struct BlockExecutor::Impl {
       const Session& session = *sessions.back();
       MethodResult method;
       method.featuresLeftOut = featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
+      method.lightLeftOut = session.lightLeftOut();
       method.bytesPerPixel = session.bytesPerPixel();
       method.codeBytes = session.codeBytes();
       method.use = deviceUseOf(session);

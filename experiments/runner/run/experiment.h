@@ -92,6 +92,7 @@ struct MethodResult {
   Image shown;                                  // measured frame of the first run
   std::map<std::string, std::string> metadata;  // of that image
   std::string featuresLeftOut;                  // "+"-joined, or "none"
+  std::string lightLeftOut;                     // Session::lightLeftOut()
   size_t bytesPerPixel = 0;
   DeviceUse use;
   double startupMs = 0.0;  // total time in this program until its kernels were ready

@@ -206,6 +206,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["run"] = run.run;
   line["seed"] = run.seed;
   line["features_left_out"] = method.featuresLeftOut;
+  line["light_left_out"] = method.lightLeftOut;
   line["bytes_per_pixel"] = method.bytesPerPixel;
   line["startup_ms"] = method.startupMs;
   line["code_bytes"] = method.codeBytes;
@@ -294,6 +295,7 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     run.health.raysShadow = line.at("rays_shadow").get<uint64_t>();
     if (line.contains("temporal")) run.temporal = temporalOf(line.at("temporal"));
     method.featuresLeftOut = line.at("features_left_out").get<std::string>();
+    method.lightLeftOut = line.value("light_left_out", std::string());
     method.bytesPerPixel = line.at("bytes_per_pixel").get<size_t>();
     method.codeBytes = line.at("code_bytes").get<size_t>();
     method.startupMs = std::max(method.startupMs, line.at("startup_ms").get<double>());

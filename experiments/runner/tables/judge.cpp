@@ -72,16 +72,10 @@ void judgeUnbiased(MethodSummary& row) {
   }
 }
 
-// Light that the method does not look for, in words; "": none, or the row is of images.
-std::string lightLeftOut(const MethodSummary& row) {
-  if (row.method->images) return "";
-  return findIntegrator(row.method->session.integrator).leavesOut;
-}
-
 // Checks the bounds of a biased method. A row counts unless its runs show a violation; undecided
 // bounds are only flagged.
 void judgeBiased(MethodSummary& row) {
-  if (const std::string light = lightLeftOut(row); !light.empty()) {
+  if (const std::string& light = row.result->lightLeftOut; !light.empty()) {
     row.counts = false;
     row.flags.push_back(
         fmt::format("does not count: it leaves out {}; energy ratio {}, squared bias {} of its MSE",
