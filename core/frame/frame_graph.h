@@ -2,8 +2,10 @@
 // for every frame. The graph is a description; core/frame/pipeline.h runs it on a backend.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -51,6 +53,8 @@ struct FrameInfo {
   size_t pixels = 0;
   bool isNewView = true;             // camera or parameters differ from those of the frame before
   bool wantsRadianceFrames = false;  // a part reads FrameBuffers::radianceFrames
+  // Box around the scene without strays, relative to CompiledScene::origin(): low and high corner.
+  std::array<glm::vec3, 2> sceneBox{};
 
   // Number of groups of `perGroup` pixels; the last one may have fewer.
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }

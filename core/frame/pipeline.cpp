@@ -33,13 +33,15 @@ class Copies {
 }  // namespace
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-                   const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels)
+                   const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels,
+                   const std::array<glm::vec3, 2>& sceneBox)
     : backend_(backend),
       parts_(std::move(parts)),
       mode_(mode),
       parameters_(parameters),
       wanted_(wanted),
       pixels_(pixels),
+      sceneBox_(sceneBox),
       graph_(recorded(parameters, pixels)) {
   if (!graph_.shared.radiance)
     failUsage(fmt::format("{}: its frame leaves no radiance (FrameBuffers)", parts_.back()->name));
@@ -49,12 +51,20 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
   }
 }
 
+FrameInfo Pipeline::frameOf(const ParameterMap& parameters, size_t pixels, bool isNewView) const {
+  FrameInfo frame{mode_, parameters};
+  frame.pixels = pixels;
+  frame.isNewView = isNewView;
+  frame.sceneBox = sceneBox_;
+  return frame;
+}
+
 // Records a frame of a new view, which has every buffer and pass of the method.
 FrameGraph Pipeline::recorded(const ParameterMap& parameters, size_t pixels) const {
   FrameGraph graph;
-  graph.record(parts_, {mode_, parameters, pixels, true});
+  graph.record(parts_, frameOf(parameters, pixels, true));
   FrameGraph still = graph;
-  still.record(parts_, {mode_, parameters, pixels, false});
+  still.record(parts_, frameOf(parameters, pixels, false));
   graph.shareMemory(still);
   return graph;
 }
@@ -257,7 +267,7 @@ PassRun Pipeline::runOf(const GraphPass& pass) {
 }
 
 std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
-  graph_.record(parts_, {mode_, parameters_, pixels_, isNewView});
+  graph_.record(parts_, frameOf(parameters_, pixels_, isNewView));
   if (graph_.buffers().size() != ids_.size())
     failUsage(
         fmt::format("buffer {}: a frame of a new view lacks it", graph_.buffers().back().name));

@@ -1,6 +1,7 @@
 // The passes of a frame and their buffers: those of a method's parts, in order.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -23,9 +24,10 @@ struct ShownFrame {
 
 class Pipeline {
  public:
-  // `wanted`: the features of the kernels. Allocates nothing yet.
+  // `wanted`: the features of the kernels; `sceneBox`: FrameInfo::sceneBox. Allocates nothing yet.
   Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
-           const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels);
+           const ParameterMap& parameters, rl::FeatureMask wanted, size_t pixels,
+           const std::array<glm::vec3, 2>& sceneBox = {});
 
   rl::FeatureMask featuresUsed() const { return used_; }
   // Bytes per pixel of each buffer that the kernels in use can touch, rounded up; 0: it uses the
@@ -85,6 +87,7 @@ class Pipeline {
   std::vector<uint32_t> words(const std::string& buffer) { return words(graph_.find(buffer)); }
 
  private:
+  FrameInfo frameOf(const ParameterMap& parameters, size_t pixels, bool isNewView) const;
   FrameGraph recorded(const ParameterMap& parameters, size_t pixels) const;
   bool isUsed(const GraphBuffer& buffer) const;
   // Bytes that are allocated for the buffer itself.
@@ -118,6 +121,7 @@ class Pipeline {
   rl::FeatureMask wanted_ = 0;
   std::map<std::string, rl::FeatureMask> masks_;  // by kernel
   size_t pixels_ = 0;
+  std::array<glm::vec3, 2> sceneBox_{};
   FrameGraph graph_;
   rl::FeatureMask used_ = 0;
   std::vector<Column> columns_;

@@ -173,8 +173,11 @@ rl::FeatureMask Session::Impl::wantedFeatures() const {
 }
 
 void Session::Impl::openPipeline() {
+  const std::array<glm::dvec3, 2> box = boundsWithoutStrays(scene->source());
+  const glm::dvec3 origin = scene->origin();
   pipeline.emplace(*backend, withViewParts(method.parts()), config.mode, config.parameters,
-                   wantedFeatures(), size_t(config.width) * config.height);
+                   wantedFeatures(), size_t(config.width) * config.height,
+                   std::array{glm::vec3(box[0] - origin), glm::vec3(box[1] - origin)});
   const size_t filterBytes = method.denoiser->onHost ? kHostFilterBytesPerPixel : 0;
   backend->requireMemory(method.integrator->name, config.width, config.height,
                          pipeline->bytesPerPixel(),
