@@ -15,6 +15,8 @@ set(RL_ANALYTIC_TESTS
   analytic/scene_file_textures_test.cpp
   analytic/truths_test.cpp
   analytic/wax_test.cpp
+  analytic/local_ambient_test.cpp
+  analytic/local_colours_test.cpp
   analytic/local_maps_test.cpp
   analytic/local_test.cpp
   scene/gltf_builder.cpp
