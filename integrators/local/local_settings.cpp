@@ -116,7 +116,7 @@ LocalSettings localSettings(const ParameterMap& parameters) {
   }
   const LightingStep step = stepOf(s.preset);
   if (step == kNoStep) return s;
-  // What a step has and the parameters leave out is had by rays.
+  // Rays stand in where a step has something that the parameters leave out.
   const auto had = [&](LightingStep from, uint32_t value, uint32_t otherwise) {
     if (step < from) return 0u;
     return value != 0 ? value : otherwise;

@@ -152,7 +152,7 @@ TEST(LocalPresets, EachStepChangesTheImageAsItSays) {
   EXPECT_LT(shadows, 0.99 * direct);
   EXPECT_LT(occlusion, shadows);
   EXPECT_GT(reflections, occlusion);
-  // What is set stays: a map's shadows, the screen's occlusion.
+  // Settings stay: a map's shadows, the screen's occlusion.
   EXPECT_NE(energy("occlusion", {{"occlusion", std::string("screen")}}), occlusion);
   EXPECT_NE(energy("shadows", {{"shadows", std::string("map")}}), shadows);
 }
@@ -238,7 +238,7 @@ TEST(LocalScreen, TheWallHidesThePointsBehindIt) {
   EXPECT_GT(most, 0.2);
 }
 
-// What the camera does not see hides nothing, and a plane not itself.
+// Surfaces that the camera does not see hide nothing, and a plane does not hide itself.
 TEST(LocalScreen, WhatIsOffTheScreenHidesNothing) {
   const auto mostHidden = [](const Corner& corner, const std::string& occlusion) {
     const Image image =
