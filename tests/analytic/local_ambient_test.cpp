@@ -107,6 +107,22 @@ TEST(LocalLamps, MoreLightsThanSamplesAreDrawnFrom) {
   EXPECT_NEAR(sum / truth, 1.0, 0.005);
 }
 
+// One of each light has the mean of draws: triangles, shapes, a sun and a sky, in mirrors as well.
+TEST(LocalLamps, ASampleOfEachHasTheMeanOfDraws) {
+  for (const char* name : {"shapes", "courtyard", "glass"}) {
+    const auto scene = CompiledScene::build(makeBuiltinScene(name));
+    const auto sumOf = [&](int64_t samples, int frames) {
+      const ParameterMap parameters = {{"light_samples", samples},
+                                       {"reflections", std::string("glossy")}};
+      double sum = 0.0;
+      for (const glm::vec3& p : imageOfLocal(scene, parameters, 32, 18, frames).pixels)
+        sum += double(p.y);
+      return sum;
+    };
+    EXPECT_NEAR(sumOf(0, 32) / sumOf(8, 32), 1.0, 0.02) << name;
+  }
+}
+
 TEST(LocalLamps, LampsGiveAShareOfTheirBrightnessFromEverywhere) {
   const LitFloor floor;
   const ParameterMap share = {
@@ -252,6 +268,22 @@ TEST(LocalScreen, WhatIsOffTheScreenHidesNothing) {
   // The wall stands right behind the upper edge of the picture.
   EXPECT_LT(mostHidden(away, "screen"), 1e-6);
   EXPECT_GT(mostHidden(Corner({0, 0, -0.6}), "screen"), 0.05);
+}
+
+// A square before the eye, far from the floor behind it, leaves no dark rim on the floor.
+TEST(LocalScreen, FarSurfacesInFrontHideNothing) {
+  SceneBuilder builder("rim");
+  const uint32_t white = builder.addMaterial("white", builtin::lambert(glm::vec3(0.5f)));
+  builder.add(builtin::quad("floor", {-20, 0, 20}, {40, 0, 0}, {0, 0, -40}), white);
+  builder.add(builtin::quad("square", {-0.1, 1.2, 0.1}, {0.2, 0, 0}, {0, 0, -0.2}), white);
+  builder.addCamera("eye", {0, 2, 0.3}, {0, 0, 0}, 60.0);
+  const auto scene = CompiledScene::build(builder.finish());
+  const ParameterMap parameters = {{"occlusion", std::string("screen")},
+                                   {"occlusion_rays", int64_t{64}},
+                                   {"occlusion_radius", 0.5},
+                                   {"ambient", 2.0}};
+  for (const glm::vec3& p : imageOfLocal(scene, parameters, 48, 48).pixels)
+    ASSERT_NEAR(p.x, 1.0f, 1e-6f);
 }
 
 }  // namespace

@@ -176,6 +176,26 @@ TEST(LocalMaps, AnAreaHasTheHardShadowOfItsMiddle) {
   EXPECT_GT(penumbra, 10u);
 }
 
+// A lamp does not stand in its own light: a ball, as triangles and as a shape.
+TEST(LocalMaps, ALampCastsNoShadowOfItself) {
+  const auto sumOf = [](const std::shared_ptr<const CompiledScene>& scene, ParameterMap map) {
+    map["light_samples"] = int64_t{8};
+    double sum = 0.0;
+    for (const glm::vec3& p : imageOfLocal(scene, map, 32, 24, 4).pixels) sum += double(p.y);
+    return sum;
+  };
+  SceneBuilder builder("ball");
+  builder.add(builtin::quad("floor", {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}),
+              builder.addMaterial("grey", builtin::lambert(glm::vec3(0.5f))));
+  builder.add(builtin::sphere("ball", {0, 1.5, 0}, 0.3, 2, false),
+              builder.addMaterial("lamp", builtin::lamp(glm::vec3(30.0f))));
+  builder.addCamera("eye", {0.3, 3.5, 2.5}, {0, 0, 0}, 55.0);
+  const auto ball = CompiledScene::build(builder.finish());
+  EXPECT_NEAR(sumOf(ball, mapped(64, 1)) / sumOf(ball, {}), 1.0, 0.02);
+  const auto shapes = CompiledScene::build(makeBuiltinScene("shapes"));
+  EXPECT_NEAR(sumOf(shapes, mapped(256, 1)) / sumOf(shapes, {}), 1.0, 0.05);
+}
+
 // Lamps for which there is no square have shadow rays.
 TEST(LocalMaps, WithoutASquareThereAreRays) {
   const Shadowed point(LampKind::point);
