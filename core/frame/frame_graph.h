@@ -2,9 +2,11 @@
 // for every frame. The graph is a description; core/frame/pipeline.h runs it on a backend.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -57,6 +59,8 @@ struct FrameInfo {
   // Frames recorded since buffers hold nothing of this scene with these parameters, and since its
   // light changed, if that was later. Cameras may have moved.
   uint32_t sceneAge = 0, lightAge = 0;
+  // Box around the scene without strays, relative to CompiledScene::origin(): low and high corner.
+  std::array<glm::vec3, 2> sceneBox{};
 
   // Number of groups of `perGroup` pixels; the last one may have fewer.
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }

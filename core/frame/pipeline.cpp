@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
 
@@ -30,6 +31,12 @@ class Copies {
   std::map<std::string, std::vector<uint32_t>> words_;
 };
 
+// FrameInfo::sceneBox.
+std::array<glm::vec3, 2> boxOf(const CompiledScene& scene) {
+  const std::array<glm::dvec3, 2> box = boundsWithoutStrays(scene.source());
+  return {glm::vec3(box[0] - scene.origin()), glm::vec3(box[1] - scene.origin())};
+}
+
 }  // namespace
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
@@ -42,6 +49,7 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
       wanted_(wanted),
       pixels_(pixels),
       scene_(std::move(scene)),
+      sceneBox_(boxOf(*scene_)),
       graph_(recorded(parameters, pixels)) {
   if (!graph_.shared.radiance)
     failUsage(fmt::format("{}: its frame leaves no radiance (FrameBuffers)", parts_.back()->name));
@@ -53,7 +61,9 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
 
 FrameInfo Pipeline::frameInfo(const ParameterMap& parameters, size_t pixels, bool isNewView,
                               uint32_t age) const {
-  return {mode_, parameters, pixels, isNewView, false, scene_.get(), age, age};
+  FrameInfo frame = {mode_, parameters, pixels, isNewView, false, scene_.get(), age, age};
+  frame.sceneBox = sceneBox_;
+  return frame;
 }
 
 // Records the first frame of a new view, which has every buffer and pass of the method.

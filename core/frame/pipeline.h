@@ -1,6 +1,7 @@
 // The passes of a frame and their buffers: those of a method's parts, in order.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -136,6 +137,7 @@ class Pipeline {
     uint32_t scene = 0, light = 0;  // FrameInfo::sceneAge, lightAge, of the next frame
   };
   Ages ages_;
+  std::array<glm::vec3, 2> sceneBox_{};
   FrameGraph graph_;
   rl::FeatureMask used_ = 0;
   std::vector<Column> columns_;

@@ -1,4 +1,4 @@
-// restlab figure: makes a crop strip for a paper.
+// restlab figure: makes a crop strip for a paper, or the series of a scene.
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/image/io/atomic_file.h"
+#include "experiments/cli/figure_series.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/report/figure.h"
@@ -27,6 +28,8 @@ struct FigureOptions {
   double exposure = 0.0;  // 0: from the file
   uint32_t scale = 0;     // 0: from the crops
   bool cropErrors = false, anyReference = false;
+  std::string series, resolution;
+  uint32_t spp = 64;
 };
 
 // Approximate width of a crop in the figure, in pixels.
@@ -200,6 +203,9 @@ void makeFigure(const FigureOptions& options) {
   if (!isSvg && !isPng) {
     failUsage(fmt::format("--output {}: must be named *.svg or *.png", options.output));
   }
+  for (const auto& [option, isMissing] :
+       {std::pair("--ref", options.reference.empty()), std::pair("--crop", options.crops.empty())})
+    if (isMissing) failUsage(fmt::format("{} is required", option));
   const MetricInfo& metric = findMetric(options.metric);
   const std::vector<std::string> labels = labelsOf(options);
   FigureSpec spec;
@@ -267,31 +273,68 @@ void makeFigure(const FigureOptions& options) {
                       spec.columns.size(), spec.exposure));
 }
 
+void makeFigureOfScene(const FigureOptions& options) {
+  if (options.images.size() != 1)
+    failUsage(
+        fmt::format("--series {}: takes one scene, not {}", options.series, options.images.size()));
+  for (const auto& [option, isGiven] :
+       {std::pair("--ref", !options.reference.empty()), std::pair("--crop", !options.crops.empty()),
+        std::pair("--labels", !options.labels.empty()), std::pair("--scale", options.scale != 0),
+        std::pair("--crop-errors", options.cropErrors)})
+    if (isGiven) failUsage(fmt::format("{}: goes with images, not with --series", option));
+  SeriesOptions series;
+  series.name = options.series;
+  series.scene = options.images.front();
+  series.output = options.output;
+  series.title = options.title;
+  series.exposure = options.exposure;
+  series.spp = options.spp;
+  SceneOptions size;
+  size.resolution = options.resolution;
+  resolveResolution(size);
+  series.width = size.width;
+  series.height = size.height;
+  makeSeries(series);
+}
+
 }  // namespace
 
 Action addFigureVerb(CLI::App& app) {
   auto options = std::make_shared<FigureOptions>();
-  CLI::App* verb = app.add_subcommand("figure", "a paper's crop strip with labels and errors");
-  verb->add_option("-r,--ref", options->reference, "the reference, an EXR")->required();
-  verb->add_option("images", options->images, "EXR files, one column each")->required();
+  CLI::App* verb = app.add_subcommand(
+      "figure", "a paper's crop strip with labels and errors, or a scene as a series of pictures");
+  verb->add_option("-r,--ref", options->reference, "the reference, an EXR; without it: --series");
+  verb->add_option("images", options->images, "EXR files, one column each; --series: a scene")
+      ->required();
   verb->add_option("--crop", options->crops, "X,Y,W,H in pixels from the top left; one row each")
-      ->required()
       ->take_all()
       ->allow_extra_args(false);
   verb->add_option("-o,--output", options->output, "*.svg (text stays text) or *.png")->required();
   verb->add_option("--labels", options->labels,
                    "comma-separated, one an image (default: what tells the files' names apart)");
-  verb->add_option("--title", options->title, "above the whole image (default: the scene)");
+  verb->add_option("--title", options->title,
+                   "above the whole image, below a series (default: the scene)");
   verb->add_option("--metric", options->metric, "restlab list metrics (default mse)");
-  verb->add_option("--exposure", options->exposure,
-                   "factor on radiance (default: that of run's previews, else 1)")
+  verb->add_option(
+          "--exposure", options->exposure,
+          "factor on radiance (default: that of run's previews, else 1; of a series: by its "
+          "last picture)")
       ->transform(numberFrom(1e-12, 1e12));
   verb->add_option("--scale", options->scale, "output pixels a pixel of a crop")
       ->transform(wholeNumberFrom(1, kMaxScale));
   verb->add_flag("--crop-errors", options->cropErrors, "the error of each crop as well");
   verb->add_flag("--any-reference", options->anyReference,
                  "compare with a reference of another scene or setting");
-  return [options](Outcome&) { makeFigure(*options); };
+  verb->add_option("--series", options->series,
+                   "course: the lights alone, direct light, shadows, indirect light, transparency "
+                   "and reflection");
+  verb->add_option("--resolution", options->resolution,
+                   "WxH pixels of each picture of a series (default: 320 wide)");
+  verb->add_option("--spp", options->spp, "frames of each picture of a series (default 64)")
+      ->transform(wholeNumberFrom(1, 1'000'000));
+  return [options](Outcome&) {
+    options->series.empty() ? makeFigure(*options) : makeFigureOfScene(*options);
+  };
 }
 
 }  // namespace restlab

@@ -48,6 +48,7 @@ struct FigureText {
 // Layout of a figure, in pixels.
 struct Figure {
   double width = 0.0, height = 0.0;
+  std::string description = "Crops of images";  // the SVG's title
   std::vector<FigurePicture> pictures;
   std::vector<FigureFrame> frames;
   std::vector<FigureText> texts;

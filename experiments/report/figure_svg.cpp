@@ -6,7 +6,7 @@
 namespace restlab {
 
 std::string figureSvg(const Figure& figure) {
-  std::string out = svg::open(figure.width, figure.height, "Crops of images", "figure");
+  std::string out = svg::open(figure.width, figure.height, figure.description, "figure");
   for (const FigurePicture& picture : figure.pictures) {
     // The PNG holds the enlarged pixels; a viewer that scales it further must not blur them.
     out += fmt::format(

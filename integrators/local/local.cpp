@@ -2,119 +2,70 @@
 // a parameter.
 #include "integrators/local/local.h"
 
-#include <set>
-#include <string>
-
 #include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
-#include "core/frame/schema.h"
+#include "integrators/local/local_settings.h"
+#undef RL_KERNEL_BUFFERS
+#undef RL_KERNEL_PARAMS
+#include "core/gbuffer/gbuffer_pass.h"
 
 namespace restlab {
 
 namespace {
 
-// The fragment shader of a lecture: 0.05 + max(n.l, 0) of the colour, and 0.4 max(r.e, 0)^20.
-constexpr const char* kLecture = "lecture";
-constexpr double kLectureAmbient = 0.05, kLectureHighlight = 0.4, kLecturePower = 20.0;
+// Radius of occlusion that follows the scene, over the diagonal of its box.
+constexpr float kOwnRadius = 0.1f;
 
-struct LocalSettings {
-  std::string preset = "none";
-  uint32_t model = rl::RL_LOCAL_CLOSURE;
-  uint32_t shading = rl::RL_LOCAL_PER_PIXEL;
-  uint32_t shadows = 1;
-  uint32_t occlusion = 0;
-  uint32_t reflections = 0;
-  uint32_t lightSamples = 1;
-  uint32_t occlusionRays = 1;
-  double occlusionRadius = 0.0;
-  double ambient = 0.0;
-  double highlight = kLectureHighlight;
-  double highlightPower = kLecturePower;
-};
-
-const Schema<LocalSettings>& schema() {
-  using S = LocalSettings;
-  using P = Parameter<S>;
-  const Range rays{1.0, double(rl::RL_LOCAL_MOST_RAYS)};
-  static const Schema<S> all = {
-      P(&S::preset, "preset", Choices{"none", kLecture},
-        "lecture: Phong's model in each pixel, ambient 0.05, highlight 0.4, power 20, no shadows, "
-        "occlusion or reflections, whatever they are set to",
-        "the shader that lectures begin with"),
-      P(&S::model, "model", Choices{"closure", "lambert", "phong", "blinn_phong"},
-        "closure: the scene's own materials; the others see their albedo alone",
-        "Phong 1975; Blinn 1977"),
-      P(&S::shading, "shading", Choices{"phong", "gouraud", "flat"},
-        "light is computed in each pixel, at the corners of a triangle, or once a triangle",
-        "Phong 1975; Gouraud 1971"),
-      P(&S::shadows, "shadows", Choices{"none", "rays"}, "of light samples", "a shadow ray each"),
-      P(&S::occlusion, "occlusion", Choices{"none", "rays"},
-        "the share of ambient light that arrives, by rays about the normal",
-        "Zhukov et al. 1998; cosine-weighted rays"),
-      P(&S::reflections, "reflections", Choices{"none", "mirror", "glossy"},
-        "mirror: also through smooth glass; glossy: in rough reflections and glass, too",
-        "Whitted 1980; Cook et al. 1984"),
-      P(&S::lightSamples, "light_samples", rays,
-        "of each point of the first surface; reflections have one", "path has one")
-          .sameMean(),
-      P(&S::occlusionRays, "occlusion_rays", rays,
-        "of each point of the first surface; reflections have one", "one, as all else")
-          .sameMean(),
-      P(&S::occlusionRadius, "occlusion_radius", Range{0.0, 1e9},
-        "metres up to which a surface takes ambient light away; 0: any distance", "no radius"),
-      P(&S::ambient, "ambient", Range{0.0, 1e9},
-        "radiance that arrives from everywhere, beside a scene's own",
-        "none: it depends on the scene"),
-      P(&S::highlight, "highlight", Range{0.0, 1e3},
-        "factor of the lobe of phong and blinn_phong; 1: as bright as white Lambert",
-        "lectures: 0.4"),
-      P(&S::highlightPower, "highlight_power", Range{0.0, 1e6},
-        "exponent of the lobe of phong and blinn_phong", "lectures: 20")};
-  return all;
+rl::LocalParams localParams(const LocalSettings& s, const FrameInfo& f) {
+  float radius = float(s.occlusionRadius);
+  if (s.hasOwnRadius && radius == 0.0f)
+    radius = kOwnRadius * glm::length(f.sceneBox[1] - f.sceneBox[0]);
+  return {.model = s.model,
+          .shading = s.shading,
+          .shadows = s.shadows,
+          .occlusion = s.occlusion,
+          .reflections = s.reflections,
+          .combine = s.combine,
+          .lightSamples = s.lightSamples,
+          .occlusionRays = s.occlusionRays,
+          .hasDirect = s.directLight ? 1u : 0u,
+          .occlusionRadius = radius,
+          .ambient = float(s.ambient),
+          .ambientShare = float(s.ambientShare),
+          .highlight = float(s.highlight),
+          .highlightPower = float(s.highlightPower),
+          .mapSquares = s.mapSquares,
+          .mapSize = s.mapSize,
+          .mapBias = float(s.mapBias),
+          .mapFilter = s.mapFilter,
+          .sceneLow = f.sceneBox[0],
+          .sceneHigh = f.sceneBox[1]};
 }
 
-LocalSettings settingsOf(const ParameterMap& parameters) {
-  LocalSettings s = schema().read(parameters);
-  if (s.preset != kLecture) return s;
-  s.model = rl::RL_LOCAL_PHONG;
-  s.shading = rl::RL_LOCAL_PER_PIXEL;
-  s.shadows = s.occlusion = s.reflections = 0;
-  s.ambient = kLectureAmbient;
-  s.highlight = kLectureHighlight;
-  s.highlightPower = kLecturePower;
-  return s;
-}
-
+// Maps do not depend on the view, but frames of a still view alone can be told from others.
 void recordLocal(FrameGraph& g, const FrameInfo& f) {
-  const LocalSettings s = settingsOf(f.parameters);
-  const rl::LocalParams params = {.model = s.model,
-                                  .shading = s.shading,
-                                  .shadows = s.shadows,
-                                  .occlusion = s.occlusion,
-                                  .reflections = s.reflections,
-                                  .lightSamples = s.lightSamples,
-                                  .occlusionRays = s.occlusionRays,
-                                  .occlusionRadius = float(s.occlusionRadius),
-                                  .ambient = float(s.ambient),
-                                  .highlight = float(s.highlight),
-                                  .highlightPower = float(s.highlightPower)};
+  const LocalSettings s = localSettings(f.parameters);
+  const bool hasMaps = s.shadows == rl::RL_LOCAL_SHADOW_MAP && s.directLight;
+  const bool readsScreen = s.occlusion == rl::RL_LOCAL_OCCLUSION_SCREEN;
+  const size_t texels = size_t(s.mapSquares) * s.mapSize * s.mapSize;
+  const size_t lampWords = 1 + size_t(s.mapSquares) * rl::RL_LOCAL_LAMP_UVEC4S;
   const Buffer radiance = g.buffer("radiance", f.pixels, sizeof(glm::vec3));
-  g.kernels<rl::LocalBuffers>(params, {radiance}).pass("local", "local").writes({radiance});
+  const Buffer lamps = g.buffer("shadow_lamps", hasMaps ? lampWords : 0, 16);
+  const Buffer maps = g.buffer("shadow_maps", hasMaps ? texels : 0, sizeof(float));
+  const Buffer surfaces = g.buffer("local_surfaces", readsScreen ? f.pixels : 0, 16);
+  const Kernels kernels =
+      g.kernels<rl::LocalBuffers>(localParams(s, f), {radiance, lamps, maps, surfaces});
+  if (hasMaps && f.lightAge == 0) {
+    kernels.pass("shadow_lamps", "local_lamps").updates({lamps}).over(1).once();
+    kernels.pass("shadow_maps", "local_maps").reads({lamps}).updates({maps}).over(texels).once();
+  }
+  if (readsScreen && f.isNewView) {
+    g.kernels<rl::GBufferBuffers>(rl::GBufferParams{}, {surfaces})
+        .pass("local_surfaces", "gbuffer")
+        .writes({surfaces});
+  }
+  kernels.pass("local", "local").reads({lamps, maps, surfaces}).writes({radiance});
   g.shared.radiance = radiance;
-}
-
-std::string whyUnused(const std::string& name, const ParameterMap& parameters) {
-  const LocalSettings s = schema().read(parameters);
-  const bool isLecture = s.preset == kLecture;
-  const std::set<std::string> ofPreset = {"model",   "shading",   "shadows",         "occlusion",
-                                          "ambient", "highlight", "highlight_power", "reflections"};
-  if (isLecture && ofPreset.contains(name)) return "preset = lecture sets it";
-  const bool hasLobe = s.model == rl::RL_LOCAL_PHONG || s.model == rl::RL_LOCAL_BLINN_PHONG;
-  if ((name == "highlight" || name == "highlight_power") && !hasLobe)
-    return "model has no lobe of a power";
-  if ((name == "occlusion_rays" || name == "occlusion_radius") && (isLecture || s.occlusion == 0))
-    return "occlusion is none";
-  return "";
 }
 
 }  // namespace
@@ -130,8 +81,8 @@ const IntegratorInfo& localIntegratorInfo() {
          "most light of more than one rough surface is left out, and mirrors and glass unless "
          "asked for; models and ambient light of its own stand for others"}};
     i.leavesOut = "light of more than one rough surface";
-    i.parameters = schema().infos();
-    i.reasonUnused = whyUnused;
+    i.parameters = localParameters();
+    i.reasonUnused = whyLocalUnused;
     i.record = recordLocal;
     return i;
   }();

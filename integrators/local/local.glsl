@@ -2,18 +2,25 @@
 // ambient light in place of all other.
 //
 // Estimator: each surface that the eye sees, straight or in mirrors, is lit by light samples, each
-// with a shadow ray. There are no MIS weights, since no BSDF sample looks for a light: lamps are
-// seen in mirrors alone. Rough reflections are followed where a glossy lobe was drawn, with the
-// weight of all lobes: what they show depends on how lobes are drawn. Bias: most light that two
-// rough surfaces scatter is left out, and so are mirrors and glass, unless they are asked for.
-// Bodies neither absorb nor scatter, and each of their surfaces is one in air. No Russian roulette.
+// with a shadow ray or a look into a shadow map. There are no MIS weights, since no BSDF sample
+// looks for a light: lamps are seen in mirrors alone. Rough reflections are followed where a glossy
+// lobe was drawn, with the weight of all lobes: what they show depends on how lobes are drawn.
+// Bias: most light that two rough surfaces scatter is left out, and so are mirrors and glass,
+// unless they are asked for. Bodies neither absorb nor scatter, and each of their surfaces is one
+// in air. No Russian roulette.
 //
 // Lighting is computed in each pixel, or at the three corners of a triangle and interpolated
 // (Gouraud 1971), or once a triangle. The material is that of the pixel: a texture is modulated by
 // the light of the corners. Normal maps are read at the corners.
 //
 // All rays leave from one place of the code: GPU compilers write out each traversal. A `job` is one
-// turn of that loop: the ray of the eye, the surface that it met, and then the rays of each point.
+// turn of that loop: the ray of the eye, the surface that it met, and then the rays of each point:
+// light samples before occlusion, which takes a share of the ambient light that lamps gave.
+
+#include "integrators/local/lamp_sample.glsl"
+#include "integrators/local/occlusion.glsl"
+#include "integrators/local/shadow_map.glsl"
+#include "integrators/local/texture_combine.glsl"
 
 // Light after so many scattering events is asked for.
 RL_FN bool localWants(uint events) {
@@ -22,11 +29,11 @@ RL_FN bool localWants(uint events) {
 }
 
 // Random numbers of a ray: of a light sample, or of occlusion. Beyond the first vertex there is one
-// of each a point.
+// of each a point, unless each light has one.
 RL_FN Rng localRng(RL_IN(Rng) rng, uint events, uint point, uint ray, bool isOcclusion) {
   uint place = (events * 3u + point) * 2u + (isOcclusion ? 1u : 0u);
   uint number = 6u * RL_LOCAL_MOST_RAYS + place;
-  if (events == 0u) number = place * RL_LOCAL_MOST_RAYS + ray;
+  if (events == 0u || localTakesEach()) number = place * RL_LOCAL_MOST_RAYS + ray;
   Rng own = rng;
   own.vertex = RL_VERTEX_CANDIDATES + number;
   return own;
@@ -55,14 +62,6 @@ RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
     value += vec3(lobe, lobe, lobe);
   }
   return value * RL_INV_PI;
-}
-
-// Light that a surface sends on of the light from everywhere.
-RL_FN vec3 localAmbient(RL_IN(Surface) s) {
-  vec3 ambient = vec3(gParams.ambient, gParams.ambient, gParams.ambient);
-  vec3 sent = ambient * min(bsdfAlbedo(s.bsdf), vec3(1.0f, 1.0f, 1.0f));
-  if (RL_HAS(RL_FEATURE_AMBIENT)) sent += surfaceAmbient(s);
-  return sent;
 }
 
 // The hit that names a point at which a surface is lit: a corner of its triangle, or the middle.
@@ -97,10 +96,13 @@ RL_FN LocalVertex localVertex(RL_IN(Surface) s, uint events) {
   v.occlusion = 0u;
   if (events >= gFrame.maxBounces || !localWants(events + 1u) || bsdfIsBlack(s.bsdf)) return v;
   if (gParams.shading == RL_LOCAL_GOURAUD && !localIsPerPixel(s)) v.points = 3u;
-  if (lightExists()) v.lights = events == 0u ? gParams.lightSamples : 1u;
-  bool hasAmbient = rlIsBlack(s.emission) && !rlIsBlack(localAmbient(s));
-  if (gParams.occlusion != 0u && hasAmbient)
-    v.occlusion = events == 0u ? gParams.occlusionRays : 1u;
+  bool isOfLamps = gParams.ambientShare > 0.0f && lightExists();
+  if (gParams.hasDirect != 0u || isOfLamps) v.lights = localLightCount(events);
+  bool hasAmbient = rlIsBlack(s.emission) && (isOfLamps || !rlIsBlack(localAmbient(s)));
+  bool isAsked = gParams.occlusion == RL_LOCAL_OCCLUSION_RAYS;
+  // The screen knows of what the eye sees straight alone.
+  if (gParams.occlusion == RL_LOCAL_OCCLUSION_SCREEN) isAsked = events == 0u;
+  if (isAsked && hasAmbient) v.occlusion = events == 0u ? gParams.occlusionRays : 1u;
   return v;
 }
 
@@ -113,7 +115,8 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
   bool showsLamps = true;  // the last reflection was a mirror's: no light sample knows the lamps
   Surface s = surfaceNone();
-  Surface at = s;  // s, as it is lit at one of its points
+  Surface at = s;                        // s, as it is lit at one of its points
+  vec3 around = vec3(0.0f, 0.0f, 0.0f);  // ambient light that lamps gave the point
   Hit seen = traceNoHit();
   LocalVertex v = localVertex(s, 0u);
   uint job = 0u;
@@ -126,7 +129,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       Hit load = seen;
       if (job > 1u) load = localPointHit(s, point);
       at = surfaceLoad(load, eye.dir);
+      if (job == 1u) localRecolour(at);
     }
+    if (ray == 0u) around = vec3(0.0f, 0.0f, 0.0f);
     if (job == 1u) {
       s = at;
       v = localVertex(s, v.events);
@@ -151,6 +156,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     uint key = v.events == 0u ? cameraAlphaKey(film) : rng.key.x + v.events * 0x632be59bu;
     bool traces = job == 0u;
     vec3 unshadowed = vec3(0.0f, 0.0f, 0.0f);
+    float passed = 1.0f;
     if (job > 1u) {
       mode = RL_RAY_SHADOW;
       key = 0u;
@@ -165,25 +171,45 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         traced.tMax = gParams.occlusionRadius > 0.0f ? gParams.occlusionRadius : 3.0e38f;
         // A smooth normal's hemisphere reaches below the face.
         traces = dot(traced.dir, at.nGeoW) > 0.0f;
-        if (traces) unshadowed = localAmbient(s) * (1.0f / float(v.occlusion));
+        vec3 arrives = localAmbient(s) + around * localAlbedo(s);
+        if (traces) unshadowed = arrives * (1.0f / float(v.occlusion));
+        if (gParams.occlusion == RL_LOCAL_OCCLUSION_SCREEN) {
+          traces = false;
+          float reach = rngDraw(own, RL_DIM_BSDF_LOBE) * gParams.occlusionRadius;
+          if (localIsHidden(at, traced.dir, reach)) passed = 0.0f;
+        }
       } else {
-        LightSample light = lightSample(own, lightReceiverAt(at));
+        LightSample light = localLightSample(own, ray, lightReceiverAt(at));
         LightConnection c = lightConnect(light, at.posW);
         if (light.pdf > 0.0f && !rlIsBlack(c.emitted)) {
-          float factor = c.geometry / (light.pdf * float(v.lights));
-          unshadowed = localReflect(at, c.dirW) * c.emitted * factor;
+          float factor = c.geometry / light.pdf;
+          if (!localTakesEach()) factor = factor / float(v.lights);
+          vec3 arrives = c.emitted * factor;
+          if (gParams.hasDirect != 0u) unshadowed = localReflect(at, c.dirW) * arrives;
           traced = lightShadowRay(light, c, at.posW, at.nGeoW, at.posError);
+          if (rlIsBlack(s.emission)) around += arrives * (gParams.ambientShare * RL_INV_PI);
         }
         traces = gParams.shadows != 0u && !rlIsBlack(unshadowed);
+        if (traces && gParams.shadows == RL_LOCAL_SHADOW_MAP) {
+          uint lamp = localLampOf(light);
+          if (lamp != RL_INVALID) {
+            passed = localMapPassed(localLampRead(lamp), at.posW, at.nGeoW);
+            traces = passed < 0.0f;
+          }
+        }
       }
     }
-    float passed = 1.0f;
     if (traces) {
       Hit hit = traceNoHit();
       passed = traceRay(traced, mode, key, hit);
       if (job == 0u) seen = hit;
     }
-    if (job > 1u) radiance += throughput * unshadowed * (passed * localShare(s, v.points, point));
+    if (job > 1u) {
+      float share = localShare(s, v.points, point);
+      radiance += throughput * unshadowed * (passed * share);
+      bool isLastLight = v.occlusion == 0u && ray + 1u == v.lights;
+      if (isLastLight) radiance += throughput * around * localAlbedo(s) * share;
+    }
     if (job == 0u && seen.instance == RL_INVALID) {
       bool isInView = v.events == 0u;
       if (showsLamps && skyExists(isInView) && localWants(v.events))

@@ -2,6 +2,7 @@
 set(RL_ANALYTIC_SOURCES
   analytic/inconsistent_normals.cpp
   analytic/cornell_tiles.cpp
+  analytic/local_images.cpp
 )
 set(RL_ANALYTIC_LIBRARIES rl_bsdf)
 set(RL_ANALYTIC_TESTS
@@ -14,6 +15,9 @@ set(RL_ANALYTIC_TESTS
   analytic/scene_file_textures_test.cpp
   analytic/truths_test.cpp
   analytic/wax_test.cpp
+  analytic/local_ambient_test.cpp
+  analytic/local_colours_test.cpp
+  analytic/local_maps_test.cpp
   analytic/local_test.cpp
   analytic/radiosity_test.cpp
   scene/gltf_builder.cpp

@@ -114,12 +114,57 @@ TEST_F(FigureTest, MistakesAreOneLine) {
       {"-r absent.exr a.exr --crop 0,0,8,8 -o x.svg", 3, {"absent.exr"}},
       {"-r ref.exr small.exr --crop 0,0,8,8 -o x.svg", 3, {"small.exr", "8x8", "32x24"}},
       {"-r ref.exr a.exr --crop 0,0,8,8 -o absent/x.svg", 3, {"absent"}},
+      {"--series lecture cornell-box -o x.svg", 2, {"--series lecture", "'course'"}},
+      {"--series course cornell-box glass -o x.svg", 2, {"one scene"}},
+      {"--series course cornell-box --crop 0,0,8,8 -o x.svg", 2, {"--crop"}},
+      {"--series course cornell-box -o x.pdf", 2, {"x.pdf", "*.svg or *.png"}},
+      {"--series course cornell-bax -o x.svg", 3, {"cornell-bax"}},
+      {"--series course cornell-box --resolution 9000x9000 -o x.svg", 2, {"9000x9000"}},
   };
   for (const Mistake& mistake : mistakes) {
     SCOPED_TRACE(mistake.arguments);
     expectError(run(std::string("figure ") + mistake.arguments), mistake.code, mistake.fragments);
     EXPECT_FALSE(exists("x.svg"));
   }
+}
+
+// Each picture has more light than the one before, but for what shadows take; a mirror and glass
+// show nothing before the last one.
+TEST_F(FigureTest, ASeriesBuildsTheLightOfASceneUp) {
+  for (const std::string scene : {"cornell-box", "glass"}) {
+    SCOPED_TRACE(scene);
+    const ProgramResult result = run("figure --series course " + scene +
+                                     " --resolution 40x32 --spp 32 --title=built-up -o s.png");
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    const std::string png = read("s.png");
+    // A text of the PNG: its length stands before "tEXt" and the key.
+    const auto word = [&](const std::string& key) {
+      const size_t at = png.find("tEXt" + key + '\0');
+      if (at == std::string::npos) return std::string();
+      const size_t length = (uint8_t(png[at - 2]) << 8) + uint8_t(png[at - 1]);
+      return png.substr(at + 4 + key.size() + 1, length - key.size() - 1);
+    };
+    std::vector<double> means;
+    for (int i = 1; i <= 5; ++i)
+      means.push_back(
+          std::atof(word("restlab:picture" + std::to_string(i) + ".mean_radiance").c_str()));
+    ASSERT_GT(means[1], 0.0) << "no metadata";
+    // The lamp of `glass` is out of view.
+    EXPECT_EQ(means[0] > 0.0, scene == "cornell-box");
+    EXPECT_GT(means[1], 1.02 * means[0]);
+    EXPECT_LT(means[2], 0.98 * means[1]);
+    EXPECT_GT(means[3], 1.02 * means[2]);
+    if (scene == "glass") {
+      EXPECT_GT(means[4], 1.02 * means[3]);
+    } else {
+      EXPECT_NEAR(means[4], means[3], 0.05 * means[3]);
+    }
+  }
+  ASSERT_EQ(run("figure --series course cornell-box --resolution 90x60 --spp 1 -o s.svg").code, 0);
+  const std::string svg = read("s.svg");
+  for (const char* text : {">shadows<", ">cornell-box<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 TEST_F(FigureTest, TooLargeIsRefused) {

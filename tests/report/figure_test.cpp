@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/image/io/srgb.h"
+#include "experiments/report/series.h"
 #include "tests/report/sample.h"
 #include "tests/report/xml.h"
 
@@ -103,6 +104,24 @@ TEST_F(FigureTest, SvgHasTheCropsOfEachImage) {
   EXPECT_EQ(pixelOf(picture(3), 8 * 5 + 3, 8 * 7 + 1), srgbOf(reference_, 15, 15, 1.5f));
   EXPECT_EQ(images[1]->number("y"), images[3]->number("y")) << "crops of one place are one row";
   EXPECT_EQ(images[1]->number("x"), images[2]->number("x")) << "crops of one image are one column";
+}
+
+TEST_F(FigureTest, ASeriesIsARowOfWholePictures) {
+  const std::vector<SeriesPicture> pictures = {{"one", reference_}, {"two", path_}};
+  const Figure figure = layOutSeries(pictures, "title", 1.5f);
+  ASSERT_EQ(figure.pictures.size(), 2u);
+  EXPECT_EQ(figure.pictures[0].y, figure.pictures[1].y);
+  EXPECT_GT(figure.pictures[1].x, figure.pictures[0].x + 64.0);
+  EXPECT_GT(figure.width, figure.pictures[1].x + 64.0);
+  EXPECT_EQ(pixelOf(figure.pictures[1].picture, 5, 7), srgbOf(path_, 5, 7, 1.5f));
+  ASSERT_EQ(figure.texts.size(), 3u);
+  EXPECT_EQ(figure.texts[1].text, "two");
+  EXPECT_EQ(figure.texts[1].x, figure.pictures[1].x + 32.0);
+  EXPECT_LT(figure.texts[1].y, figure.pictures[1].y);
+  EXPECT_GT(figure.texts[2].y, figure.pictures[1].y + 36.0) << "the title stands below";
+  const XmlElement svg = parseXml(figureSvg(figure));
+  EXPECT_EQ(findAll(svg, "image").size(), 2u);
+  EXPECT_EQ(layOutSeries({{"a label that is far too long", path_}}, "", 1.0f).cutLabels.size(), 1u);
 }
 
 TEST_F(FigureTest, FramesAreWhereTheCropsAre) {

@@ -225,11 +225,20 @@ TEST(RngAudit, Local) {
                              {"occlusion_rays", int64_t{3}},
                              {"ambient", 1.0},
                              {"reflections", std::string("glossy")}};
+  // Points on the screen, and a sample of each light, also in reflections.
+  ParameterMap ofScreen = busy;
+  ofScreen["light_samples"] = int64_t{0};
+  ofScreen["occlusion"] = std::string("screen");
+  ofScreen["ambient_share"] = 0.1;
+  ofScreen["shadows"] = std::string("map");
+  ofScreen["shadow_map_size"] = int64_t{8};
   for (const std::string& name : test::variedScenes()) {
     for (const char* shading : {"phong", "gouraud", "flat"}) {
-      Audited audited{"local", "biased", {{"local", rl::kernel_local_audited}}, "", busy};
-      audited.parameters["shading"] = std::string(shading);
-      expectNoRepeats({name, audited}, std::string("local, ") + shading + ", " + name);
+      for (const ParameterMap& parameters : {busy, ofScreen}) {
+        Audited audited{"local", "biased", {{"local", rl::kernel_local_audited}}, "", parameters};
+        audited.parameters["shading"] = std::string(shading);
+        expectNoRepeats({name, audited}, std::string("local, ") + shading + ", " + name);
+      }
     }
   }
 }

@@ -307,6 +307,9 @@ LightTable buildLightTable(const LightTableInput& in, std::vector<rl::Instance>&
           fmt::format("{}: light '{}' has no intensity", in.scene.name, source.name));
       continue;
     }
+    if (source.kind != rl::RL_LIGHT_POINT && !(glm::length(source.dirW) > 0.0))
+      failInput(fmt::format("{}: light '{}' has no direction: its length is 0", in.scene.name,
+                            source.name));
     table.punctual.push_back(i);
     table.lights.push_back(punctual(source, in.origin));
     weights.add(isSun ? kSuns : kLamps, power * double(source.lightFactor));
