@@ -39,7 +39,7 @@ const std::vector<SeriesStep>& courseSteps() {
       {"direct light", "local", {{"shadows", std::string("none")}}, true},
       {"shadows", "local", {{"shadows", std::string("rays")}}, true},
       {"indirect light", "path", {}, true},
-      {"transparency and reflection", "path", {}}};
+      {"glass and mirrors", "path", {}}};
   return steps;
 }
 

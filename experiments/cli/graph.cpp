@@ -36,6 +36,7 @@ struct GraphOptions {
 // Two frames of a history: one after a small turn of the camera, and the still one after it.
 struct MeasuredFrames {
   FrameGraph moving, still;
+  std::vector<GraphPass> passes;  // work for the scene, of the first frame, and those of `moving`
   std::map<std::string, double> raysMoving, raysStill;  // per pixel, by pass
   std::map<std::string, size_t> bytesPerPixel;          // by buffer
   size_t bytes = 0;
@@ -52,15 +53,23 @@ MeasuredFrames measure(const PreparedScene& prepared, const SessionConfig& confi
   constexpr int kWarmupFrames = 4;
   constexpr double kTurnRadians = 0.005;
   Session session(prepared.scene, config);
-  for (int frame = 0; frame < kWarmupFrames; ++frame) session.frame();
+  MeasuredFrames frames;
+  const double pixels = double(config.width) * config.height;
+  const FrameStats first = session.frame();
+  for (const GraphPass& pass : session.graph().passes())
+    if (pass.isOnce) frames.passes.push_back(pass);
+  for (int frame = 1; frame < kWarmupFrames; ++frame) session.frame();
   SceneCamera camera = prepared.scene->source().cameras[config.camera];
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), kTurnRadians, glm::dvec3(0.0, 1.0, 0.0));
   camera.cameraToWorld = glm::dmat4(camera.cameraToWorld) * turn;
   session.setCamera(camera);
-  const double pixels = double(config.width) * config.height;
-  MeasuredFrames frames;
   frames.raysMoving = raysPerPixel(session.frame(), pixels);
   frames.moving = session.graph();
+  const std::map<std::string, double> raysFirst = raysPerPixel(first, pixels);
+  for (const GraphPass& pass : frames.passes)
+    frames.raysMoving[pass.name] = raysFirst.at(pass.name);
+  for (const GraphPass& pass : frames.moving.passes())
+    if (!pass.isOnce) frames.passes.push_back(pass);
   frames.raysStill = raysPerPixel(session.frame(), pixels);
   frames.still = session.graph();
   for (const auto& [name, bytes] : session.bufferBytesPerPixel())
@@ -100,11 +109,12 @@ double raysOf(const std::map<std::string, double>& rays, const std::string& pass
 
 Json graphJson(const MeasuredFrames& frames) {
   Json passes = Json::array(), buffers = Json::array();
-  for (const GraphPass& pass : frames.moving.passes()) {
+  for (const GraphPass& pass : frames.passes) {
     passes.push_back({{"name", pass.name},
                       {"part", pass.part},
                       {"kernel", pass.kernel},
                       {"elements", pass.entries},
+                      {"once_for_the_scene", pass.isOnce},
                       {"in_still_view", runsInStillView(frames, pass.name)},
                       {"rays_per_pixel_moving", raysOf(frames.raysMoving, pass.name)},
                       {"rays_per_pixel_still", raysOf(frames.raysStill, pass.name)},
@@ -139,12 +149,16 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string raysText(double rays) { return rays > 0.0 ? shortNumber(rays) : ""; }
 
+std::string whenText(const MeasuredFrames& frames, const GraphPass& pass) {
+  if (pass.isOnce) return "once a scene";
+  return runsInStillView(frames, pass.name) ? "runs" : "left out";
+}
+
 void printGraph(const MeasuredFrames& frames) {
   MarkdownTable passes(
       {"pass", "still view", "rays/px moving", "rays/px still", "reads", "writes"});
-  for (const GraphPass& pass : frames.moving.passes()) {
-    passes.add({pass.name, runsInStillView(frames, pass.name) ? "runs" : "left out",
-                raysText(raysOf(frames.raysMoving, pass.name)),
+  for (const GraphPass& pass : frames.passes) {
+    passes.add({pass.name, whenText(frames, pass), raysText(raysOf(frames.raysMoving, pass.name)),
                 raysText(raysOf(frames.raysStill, pass.name)),
                 listed(namesOf(frames.moving, pass.read, frames)),
                 listed(namesOf(frames.moving, pass.written, frames))});
@@ -162,11 +176,11 @@ GraphDrawing drawingOf(const MeasuredFrames& frames, const std::string& title) {
   GraphDrawing drawing;
   drawing.title = title;
   drawing.footnote =
-      "Filled: writes; hollow: reads. Dashed frame: only where the view is new. "
+      "Filled: writes; hollow: reads. Dashed frame: only where the view is new, or once a scene. "
       "Arrow: for the next frame. Beside a pass: rays per pixel (moving, still); "
       "beside a buffer: bytes per pixel (0: in the memory of another one).";
   std::map<std::string, size_t> lanes;
-  for (const GraphPass& pass : frames.moving.passes()) {
+  for (const GraphPass& pass : frames.passes) {
     GraphDrawing::Pass& drawn = drawing.passes.emplace_back();
     drawn.name = pass.name;
     drawn.runsInStillView = runsInStillView(frames, pass.name);

@@ -27,7 +27,7 @@ constexpr double kInward = 1.0 / 32.0;
 constexpr double kSmoothCosine = 0.99863;
 // Triangles that share vertices by cells, and those cells, over the size of elements; the cosine of
 // 25 degrees.
-constexpr double kFine = 0.25, kCell = 0.5, kCellCosine = 0.9063;
+constexpr double kFine = 0.25, kCell = 0.25, kCellCosine = 0.9063;
 // Divisions of an edge: their number has 15 bits.
 constexpr double kMostDivisions = 32767.0;
 

@@ -14,8 +14,8 @@ class CompiledScene;
 // Triangles divided until no edge of an element is longer than the size asked for. Elements of one
 // triangle are alike. Vertices are shared where positions meet within an instance and shading
 // normals differ by less than 3 degrees. Triangles whose edges are below a quarter of the size
-// share them in cells of half the size, where normals differ by less than 25 degrees: fine meshes
-// have about as many vertices as coarse ones of their area.
+// share them in cells of that quarter, where normals differ by less than 25 degrees: the number of
+// vertices follows the area, not the triangles.
 struct ElementMesh {
   // Words of the kernels' tables (integrators/radiosity/radiosity.h).
   std::vector<uint32_t> instances, triangles, elements, vertices;
@@ -35,6 +35,7 @@ size_t countElements(const CompiledScene& scene, double size);
 // no triangle with an area.
 double elementSizeOf(const CompiledScene& scene, size_t elements);
 
+// The mesh of a scene whose surfaces are all of triangles; `size` in metres.
 std::shared_ptr<const ElementMesh> makeElementMesh(const CompiledScene& scene, double size);
 
 }  // namespace restlab

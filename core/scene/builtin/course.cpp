@@ -49,7 +49,7 @@ Scene makeCourse() {
             matte);
   scene.add(sphere("glass-ball", {0.95, 0.501, 0.5}, 0.5, 5), clear);
   scene.add(sphere("mirror-ball", {-1.05, 0.551, 0.1}, 0.55, 5), mirror);
-  scene.addCamera("class", {0.0, 1.5, 3.4}, {0.0, 1.1, 0.0}, 52.0);
+  scene.addCamera("class", {0.0, 1.5, 3.45}, {0.0, 1.42, 0.0}, 62.0);
   return scene.finish();
 }
 
