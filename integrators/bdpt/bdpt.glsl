@@ -171,7 +171,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       bool ends = isOfLight && eye.events + light.events >= most;
       if (ends) path.isAlive = 0u;
       if (!ends && path.events > 0u) bdptScatter(path, isOfLight);
-      if (RL_HAS(RL_FEATURE_SCATTERING) && isOfLight && bdptIsInScattering(path)) path.isAlive = 0u;
       turn = isOfLight ? RL_BDPT_TO_TRACE : RL_BDPT_TO_FOLLOW;
       if (isOfLight) {
         light = path;
@@ -185,6 +184,10 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       }
     }
 
+    if (RL_HAS(RL_FEATURE_SCATTERING) && turn == RL_BDPT_TO_TRACE && bdptIsInScattering(light)) {
+      turn = RL_BDPT_TO_LOOK;
+      continue;
+    }
     bool isOfLight = turn != RL_BDPT_TO_FOLLOW;
     BdptPath path = eye;
     if (isOfLight) path = light;
@@ -234,8 +237,6 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
         break;
       }
       turn = turn == RL_BDPT_TO_MEDIA ? RL_BDPT_TO_TRACE : RL_BDPT_TO_LOOK;
-      if (RL_HAS(RL_FEATURE_SCATTERING) && turn == RL_BDPT_TO_TRACE && bdptIsInScattering(light))
-        turn = RL_BDPT_TO_LOOK;
       continue;
     }
     if (RL_HAS(RL_FEATURE_SCATTERING) && !isOfLight && !isExit && bdptCollides(path, hit.t)) {

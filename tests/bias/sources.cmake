@@ -5,6 +5,7 @@ set(RL_BIAS_SOURCES
 )
 set(RL_BIAS_TESTS
   bias/absorption_test.cpp
+  bias/bdpt_test.cpp
   bias/inconsistent_normals_test.cpp
   bias/builtin_scenes_test.cpp
   bias/camera_motion_test.cpp
