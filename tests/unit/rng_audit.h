@@ -16,6 +16,7 @@ namespace rl {
 
 extern const CpuKernelEntry kernel_path_audited;
 extern const CpuKernelEntry kernel_template_audited;
+extern const CpuKernelEntry kernel_bdpt_audited;
 extern const CpuKernelEntry kernel_local_audited;
 extern const CpuKernelEntry kernel_radiance_trace_audited;
 extern const CpuKernelEntry kernel_restir_di_initial_audited;
