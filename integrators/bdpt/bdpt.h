@@ -70,7 +70,7 @@ struct BdptParams {
 };
 RL_STATIC_ASSERT_SIZE(BdptParams, 8);
 
-// What a kernel does in a turn of its loop.
+// Steps of the kernel, one a turn of its loop.
 const uint RL_BDPT_TO_LIGHT = 0u;   // begin a light's path
 const uint RL_BDPT_TO_JOIN = 1u;    // join the ends of both paths
 const uint RL_BDPT_TO_MEDIA = 2u;   // find the bodies that a light is in

@@ -23,8 +23,8 @@ RL_FN void kernelMain(RL_IN(uvec2) entry) {
     brightest = max(brightest, gBuffers.blocks.data[at + 8u]);
   }
   vec3 centre = (low + high) * 0.5f;
-  vec3 half = (high - low) * 0.5f;
-  float radius = sqrt(dot(half, half)) * 1.125f;
+  vec3 corner = (high - low) * 0.5f;
+  float radius = sqrt(dot(corner, corner)) * 1.125f;
   if (!(low.x <= high.x)) {
     centre = vec3(0.0f, 0.0f, 0.0f);
     radius = 0.0f;

@@ -34,11 +34,6 @@ std::string exactly(const SceneCamera& camera) {
 
 }  // namespace
 
-const std::vector<std::string>& referenceIntegrators() {
-  static const std::vector<std::string> names = {"path", "bdpt"};
-  return names;
-}
-
 const std::string& referenceSources(const std::string& integrator) {
   return integrator == "bdpt" ? buildInfo().bdptHash : buildInfo().referenceHash;
 }
@@ -76,6 +71,12 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
   config.device = session.device;
   config.rayTracing = session.rayTracing;
   config.validate = session.validate;
+  return config;
+}
+
+ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture) {
+  ReferenceConfig config = referenceConfigOf(picture);
+  config.integrator = suite.referenceIntegrator;
   return config;
 }
 
@@ -153,13 +154,15 @@ void requireSameConfiguration(const std::string& file,
       "scene_hash",      "camera_index", "camera_to_world", "camera_yfov", "camera_shift",
       "camera_mirrored", "width",        "height",          "component",   "reference_sources"};
   for (const auto& setting : transportTexts({}, true)) items.push_back(setting.first);
+  const auto kind = reference.find("kind"), by = reference.find("integrator");
+  const bool isByOther = kind != reference.end() && kind->second == "reference" &&
+                         by != reference.end() && by->second != "path";
   for (const std::string& item : items) {
     const auto have = pictureWord(reference, item);
     auto want = pictureWord(wanted, item);
-    // `wanted` names the sources of `path`.
-    const auto by = reference.find("integrator");
-    if (item == "reference_sources" && want && by != reference.end())
-      want = referenceSources(by->second);
+    // `wanted` names the sources of `path`, of this version or of another one.
+    if (item == "reference_sources" && have && want && isByOther)
+      want = *want == buildInfo().referenceHash ? referenceSources(by->second) : *have;
     if (!have || !want || *have == *want) continue;
     failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,
                           item, *have, *want));

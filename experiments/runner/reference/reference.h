@@ -6,18 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/image/image.h"
 #include "experiments/runner/reference/reference_progress.h"
 #include "experiments/runner/suite/prepare.h"
 #include "experiments/runner/suite/reference_target.h"
+#include "experiments/runner/suite/suite.h"
 
 namespace restlab {
-
-// Integrators that may render a reference, the default first. They estimate the same image and
-// share no choice of lights.
-const std::vector<std::string>& referenceIntegrators();
 
 // Inputs of a reference besides the scene.
 struct ReferenceConfig : TransportSettings {
@@ -35,6 +31,9 @@ struct ReferenceConfig : TransportSettings {
 
 // Returns the reference of what `session` renders: same picture, same device, without the method.
 ReferenceConfig referenceConfigOf(const SessionConfig& session);
+
+// Returns the reference of a picture of a suite.
+ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture);
 
 // Returns the camera of `config` if its view is not exactly that of the scene's camera; else
 // nothing.

@@ -41,10 +41,4 @@ SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uin
   return config;
 }
 
-ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture) {
-  ReferenceConfig config = referenceConfigOf(picture);
-  config.integrator = suite.referenceIntegrator;
-  return config;
-}
-
 }  // namespace restlab

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/scene/camera_path/camera_path.h"
-#include "experiments/runner/reference/reference.h"
 #include "experiments/runner/suite/suite.h"
 
 namespace restlab {
@@ -16,9 +15,6 @@ void sceneResolution(const Suite& suite, const SuiteScene& scene, const Prepared
 // Returns the settings that all methods of a block and its reference share, with the reference's
 // backend.
 SessionConfig pictureOf(const Suite& suite, uint32_t width, uint32_t height, uint32_t component);
-
-// Returns the reference of a picture of the suite.
-ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture);
 
 // Resolves the suite's camera path in the scene; nothing if the camera never differs from the
 // scene's. Throws Error (badUsage) at the place of the mistake.

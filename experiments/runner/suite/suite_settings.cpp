@@ -7,7 +7,6 @@
 #include "core/backend/backend.h"
 #include "core/base/error.h"
 #include "core/image/metrics/metrics.h"
-#include "experiments/runner/reference/reference.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/suite/image_settings.h"
 
