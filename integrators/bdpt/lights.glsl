@@ -65,8 +65,7 @@ RL_FN void kernelMain(RL_IN(uvec2) entry) {
     } else {
       lamps += weight;
     }
-    // Of a lamp without an area, what a distance of one radius of the scene leaves: the next pass
-    // divides.
+    // Lamps without an area count by their power at a distance, in the next pass.
     if (light.kind != RL_LIGHT_POINT && light.kind != RL_LIGHT_SPOT)
       brightest = max(brightest, rlMax3(light.radiance));
   }

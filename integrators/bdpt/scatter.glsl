@@ -105,7 +105,7 @@ RL_FN BsdfSample bdptDraw(RL_IN(Surface) s, float uLobe, RL_IN(vec2) u, RL_OUT(f
       bool isSame = (drawn.lobe & RL_LOBE_ANY_DELTA) != 0u && dot(drawn.wi, s.wo) > RL_BDPT_SAME;
       if (!isSame) return draw;
       backward = 1.0f;
-      // What light is multiplied with on its way to the camera, over the probability of this draw.
+      // The factor of light on its way to the camera, over the probability of this draw.
       factor = drawn.weight * rlSafeDivide(drawn.pdfSolidAngle, draw.pdfSolidAngle);
       float cosThere = abs(dot(s.nGeoW, draw.wi));
       float cosHere = abs(dot(s.nGeoW, s.wo));

@@ -178,8 +178,8 @@ RL_FN bool bdptIsFar(RL_IN(BdptStart) start) {
   return start.kind == RL_LIGHT_ENVIRONMENT || start.kind == RL_LIGHT_DIRECTIONAL;
 }
 
-// What a light sends in a direction (unit, away from it) over a distance: radiance, or of a light
-// without an area what arrives across the direction.
+// Light that is sent in a direction (unit, away from the light) over a distance: radiance, or of a
+// light without an area what arrives across the direction.
 RL_FN vec3 bdptEmitted(RL_IN(BdptStart) start, RL_IN(vec3) dirW, float distance) {
   if (start.kind == RL_LIGHT_AREA) {
     bool emits = start.isTwoSided != 0u || dot(start.normal, dirW) > 0.0f;
