@@ -83,7 +83,6 @@ RL_FN BdptPath bdptNoPath(RL_IN(Rng) rng) {
   path.pastCosine = 1.0f;
   path.pastJoins = 0.0f;
   path.isParallel = 0u;
-  path.passed = 1.0f;
   path.passedT = 0.0f;
   path.media = mediaNone();
   path.behind = mediaNone();
@@ -108,8 +107,7 @@ RL_FN BdptPath bdptEyePath(RL_IN(Rng) rng, RL_IN(uvec2) pixel, uint film) {
   return eye;
 }
 
-// Ends a turn of the loop with a hit of the camera's path. Returns what its last vertex sends of
-// light that no other ray has to look for.
+// Light that the last vertex of the camera's path sends, and that no other ray has to look for.
 RL_FN vec3 bdptSeeLight(RL_IN(BdptPath) eye, bool isExit) {
   uint before = eye.events - 1u;
   if (!rlIsBlack(eye.s.emission) && bdptWants(before)) return bdptFound(eye);

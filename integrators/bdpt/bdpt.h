@@ -113,7 +113,6 @@ struct BdptPath {
   float pastCosine;   // at which the ray leaves it
   float pastJoins;    // 1: it and the next one may be joined
   uint isParallel;    // 1: the ray comes from infinity, or from an orthographic camera
-  float passed;       // traceRay() of the ray
   float passedT;      // metres travelled before the ray's origin, since the last vertex
   uvec4 media;        // bodies that the ray travels in, or the last vertex was reached in
   uvec4 behind;       // bodies beyond the last vertex

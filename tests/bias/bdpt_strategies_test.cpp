@@ -59,6 +59,8 @@ Image imageOf(const std::shared_ptr<const CompiledScene>& scene, const std::stri
               int threads) {
   SessionConfig config = pathMethod(1).config;
   config.integrator = "bdpt";
+  config.width = 32;
+  config.height = 18;
   config.parameters = {{"strategy", strategy}};
   config.threads = threads;
   Session session(scene, config);
