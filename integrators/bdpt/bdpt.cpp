@@ -12,6 +12,7 @@ namespace {
 struct BdptSettings {
   std::string heuristic = "power";
   std::string strategy = "all";
+  bool causticsOfPoints = false;
 };
 
 const Schema<BdptSettings>& bdptSchema() {
@@ -24,7 +25,11 @@ const Schema<BdptSettings>& bdptSchema() {
       P(&S::strategy, "strategy", Choices{"all", "emission", "light", "connect", "splat"},
         "shows the share of one kind of strategy: the camera's path meets a light, is joined to a "
         "point of one or to a light's path, or a light's path is joined to the camera",
-        "all")};
+        "all"),
+      P(&S::causticsOfPoints, "caustics_of_points",
+        "light of points, spots and suns that smooth glass or a mirror sends to rough surfaces; "
+        "`path` leaves it out",
+        "off: the image of all methods")};
   return all;
 }
 
@@ -45,7 +50,9 @@ uint32_t exponentOf(const BdptSettings& s) {
 
 void recordBdpt(FrameGraph& g, const FrameInfo& f) {
   const BdptSettings s = bdptSchema().read(f.parameters);
-  const rl::BdptParams params = {.exponent = exponentOf(s), .strategies = strategiesOf(s)};
+  const rl::BdptParams params = {.exponent = exponentOf(s),
+                                 .strategies = strategiesOf(s),
+                                 .causticsOfPoints = s.causticsOfPoints ? 1u : 0u};
   const Buffer blocks = g.buffer("bdpt_blocks", rl::RL_BDPT_BLOCKS * rl::RL_BDPT_BLOCK_FLOATS, 4);
   const Buffer table = g.buffer("bdpt_table", rl::RL_BDPT_TABLE_WORDS, 4);
   const Buffer splats = g.buffer("bdpt_splats", f.pixels * rl::RL_BDPT_SPLAT_WORDS, 4);

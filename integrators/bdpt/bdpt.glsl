@@ -169,6 +169,9 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       bool ends = isOfLight && eye.events + light.events >= most;
       if (ends) path.isAlive = 0u;
       if (!ends && path.events > 0u) bdptScatter(path, isOfLight);
+      // Light samples of `path` do not pass smooth surfaces, and no ray of it finds a point.
+      bool isHidden = isOfLight && start.isFindable == 0u && gParams.causticsOfPoints == 0u;
+      if (isHidden && path.events == 1u && path.pastJoins == 0.0f) path.isAlive = 0u;
       turn = isOfLight ? RL_BDPT_TO_TRACE : RL_BDPT_TO_FOLLOW;
       if (isOfLight) {
         light = path;

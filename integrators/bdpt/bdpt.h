@@ -65,10 +65,11 @@ struct BdptBuffers {
 };
 
 struct BdptParams {
-  uint exponent;    // RL_BDPT_POWER, ...
-  uint strategies;  // RL_BDPT_EMISSION, ...
+  uint exponent;          // RL_BDPT_POWER, ...
+  uint strategies;        // RL_BDPT_EMISSION, ...
+  uint causticsOfPoints;  // 1: light of points, spots and suns may meet a delta lobe first
 };
-RL_STATIC_ASSERT_SIZE(BdptParams, 8);
+RL_STATIC_ASSERT_SIZE(BdptParams, 12);
 
 // Steps of the kernel, one a turn of its loop.
 const uint RL_BDPT_TO_LIGHT = 0u;   // begin a light's path

@@ -205,6 +205,18 @@ Scene parallelEye() {
   return scene;
 }
 
+// `path` finds no light of a point that smooth surfaces send on.
+Scene pointAmongSmooth() {
+  Scene scene = bdptRoom("point among smooth surfaces", metal({0.9f, 0.9f, 0.9f}, 0.0f),
+                         glass(0.0f, kNoLoss), false);
+  PunctualLight point;
+  point.name = "point";
+  point.posW = {0.3, 2.4, -1.4};
+  point.intensity = glm::vec3(4.0f);
+  scene.lights.push_back(point);
+  return scene;
+}
+
 }  // namespace
 
 Scene bdptRoom(const std::string& name, const rl::Material& block, const rl::Material& ball,
@@ -237,6 +249,7 @@ const std::vector<BdptScene>& bdptScenes() {
        }},
       {"frosted", [] { return bdptRoom("frosted", glass(0.5f, kNoLoss), glass(0.25f, kNoLoss)); }},
       {"punctual", punctualLights},
+      {"point-among-smooth", pointAmongSmooth},
       {"sky", sky},
       {"lamp-in-glass", lampInGlass},
       {"screens", screens},
