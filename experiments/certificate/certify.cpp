@@ -266,7 +266,8 @@ Certified certify(const Question& question, const Options& options) {
       question.exact
           ? "is in closed form"
           : fmt::format(
-                "has {} spp{}", c.reference.spp,
+                "has {} spp{}{}", c.reference.spp,
+                question.against == "path" ? "" : fmt::format(" of {}", question.against),
                 countedViews(question).size() == 1 ? "" : " over the views of these frames"));
   c.replay = replayOf(question, folder.seedOf(Batch::first, 0));
   addNotes(c, findMethod(question.config).denoiser);

@@ -28,6 +28,7 @@ struct Question {
   // Says what changes, as part of names and of what identifies a run: "orbit", "lamp x0 from frame
   // 8"; "" if nothing does.
   std::string change;
+  std::string against = "path";    // integrator that renders the reference
   std::optional<Reference> exact;  // if the image is known without rendering
 
   bool changes() const { return motion.has_value() || !lights.empty(); }

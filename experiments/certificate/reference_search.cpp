@@ -71,6 +71,7 @@ void addScaled(const Image& image, float weight, Image& sum) {
 Reference referenceOfFrames(const Question& question, const ReferenceTarget& target,
                             const std::filesystem::path& folder, const std::string& label) {
   ReferenceConfig config = referenceConfigOf(question.config);
+  config.integrator = question.against;
   const std::vector<CountedView> views = countedViews(question);
   if (views.size() == 1) {
     config.camera = views[0].camera;
@@ -105,6 +106,7 @@ std::string referencePlan(const Question& question, const Options& options) {
   if (question.exact) return "in closed form";
   const CountedView view = countedViews(question).front();
   ReferenceConfig config = referenceConfigOf(question.config);
+  config.integrator = question.against;
   config.camera = view.camera;
   const Reference guess = renderReference(*view.prepared, config, {.spp = kPlanSpp});
   const stats::BlockGrid grid(question.config.width, question.config.height);

@@ -54,6 +54,7 @@ struct BiasOptions {
   SceneOptions scene;
   MethodOptions method;
   std::string images, reference, out, cameraPath;
+  std::string against = "path";
   uint64_t runs = 0, maxRuns = certificate::Options().maxRuns;
   uint64_t maxReferenceSpp = certificate::Options().maxReferenceSpp;
   certificate::TimeLimit limit;
@@ -130,6 +131,7 @@ Question questionOf(BiasOptions options) {
   question.prepared = prepareScene(question.request);
   printWarnings(question.prepared);
   question.config = given;
+  question.against = options.against;
   if (question.config.width == 0 && question.config.height == 0)
     question.config.width = kDefaultWidth;
   completeConfig(question.prepared, options.scene, question.config);
@@ -169,7 +171,7 @@ void checkTruths(const Suite& whole) {
     uint32_t width = 0, height = 0;
     sceneResolution(suite, scene, prepared, width, height);
     for (const uint32_t component : suite.components) {
-      ReferenceConfig config = referenceConfigOf(pictureOf(suite, width, height, component));
+      ReferenceConfig config = referenceOfSuite(suite, pictureOf(suite, width, height, component));
       plainOf(suite, scene, prepared, config);
     }
   }
@@ -179,7 +181,7 @@ void checkTruths(const Suite& whole) {
 std::optional<Reference> knownTruth(const Suite& suite, const SuiteScene& scene,
                                     const PreparedScene& prepared, const SessionConfig& picture) {
   if (scene.truth != Truth::exact) return std::nullopt;
-  ReferenceConfig config = referenceConfigOf(picture);
+  ReferenceConfig config = referenceOfSuite(suite, picture);
   const PreparedScene plain = plainOf(suite, scene, prepared, config);
   return exactReference(scene.request, plain, config);
 }
@@ -228,6 +230,7 @@ void forEachQuestion(const Suite& whole, const BiasOptions& options,
     printWarnings(question.prepared);
     question.motion = motionOf(suite, scene, question.prepared);
     question.lights = lightPhases(suite, question.prepared);
+    question.against = suite.referenceIntegrator;
     question.change = question.motion ? suite.cameraPathName : "";
     const std::string events = eventsText(suite.events, suite.warmupFrames);
     if (!events.empty()) question.change += (question.change.empty() ? "" : ", ") + events;
@@ -424,6 +427,11 @@ Action addBiasVerb(CLI::App& app) {
   verb->add_option("--margin", options->marginPercent,
                    "percent of the image's mean, within which a bias does not count (default 0.5)")
       ->transform(numberFrom(1e-4, 50.0));
+  verb->add_option("--against", options->against,
+                   "integrator that renders the reference: bdpt shares no choice of lights and no "
+                   "weights with path (default path)")
+      ->option_text("path|bdpt")
+      ->check(CLI::IsMember(referenceIntegrators()));
   verb->add_option("--warmup", options->warmup,
                    "frames of a history before those that count (default 8; 0 of a method without "
                    "a history in a still view)")

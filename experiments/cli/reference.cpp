@@ -1,6 +1,7 @@
 // restlab reference: renders a converged image in two independent halves.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -69,9 +70,10 @@ Reference updatedReference(const PreparedScene& prepared, const ReferenceConfig&
 
 void makeReference(ReferenceOptions options) {
   resolveResolution(options.scene);
-  if (options.integrator != "path") {
-    failUsage(fmt::format("--integrator {}: a reference is made by path, whose error is known",
-                          options.integrator));
+  const std::vector<std::string>& known = referenceIntegrators();
+  if (std::find(known.begin(), known.end(), options.integrator) == known.end()) {
+    failUsage(fmt::format("--integrator {}: a reference is made by {}, whose error is known",
+                          options.integrator, fmt::join(known, " or ")));
   }
   if (!options.target.spp && !(options.target.relmse > 0.0) && !(options.target.timeLimitS > 0.0)) {
     failUsage("reference: needs one of --spp, --target-relmse, --time-limit");
@@ -86,7 +88,9 @@ void makeReference(ReferenceOptions options) {
   printWarnings(prepared);
   completeConfig(prepared, options.scene, session);
   requireExrSize(options.output, session.width, session.height, kReferenceLayers);
-  const Reference reference = updatedReference(prepared, referenceConfigOf(session), options);
+  ReferenceConfig config = referenceConfigOf(session);
+  config.integrator = options.integrator;
+  const Reference reference = updatedReference(prepared, config, options);
   if (options.target.relmse > 0.0 && !(reference.relmseSinceHalf <= options.target.relmse)) {
     const bool isBelow = reference.relmse <= options.target.relmse;
     logWarning(fmt::format(
@@ -117,7 +121,8 @@ Action addReferenceVerb(CLI::App& app) {
       app.add_subcommand("reference", "render a converged reference with its own error");
   addSceneOptions(*verb, options->scene);
   addOutput(*verb, options->output);
-  verb->add_option("--integrator", options->integrator, "path, and nothing else");
+  verb->add_option("--integrator", options->integrator,
+                   "path, or bdpt as a second opinion (default path)");
   addBackendOptions(*verb, options->backend);
   verb->add_option("--spp", options->target.spp, "samples per pixel of both halves together")
       ->transform(wholeNumberFrom(2, uint64_t(1) << 32));

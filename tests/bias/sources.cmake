@@ -1,10 +1,13 @@
 # Is `path` or an unbiased mode biased? Independent runs against `path`, cell by cell.
 set(RL_BIAS_SOURCES
+  bias/bdpt_scenes.cpp
   bias/independent_runs.cpp
   bias/test_cameras.cpp
 )
 set(RL_BIAS_TESTS
   bias/absorption_test.cpp
+  bias/bdpt_strategies_test.cpp
+  bias/bdpt_test.cpp
   bias/inconsistent_normals_test.cpp
   bias/builtin_scenes_test.cpp
   bias/camera_motion_test.cpp

@@ -40,10 +40,12 @@ constexpr Effort kNightly{256, 8192, 0};
 struct Setting {
   std::shared_ptr<const CompiledScene> scene, lightAtLast;
   Method method;
+  std::string truth = "path";  // integrator of the reference
 };
 
 Image meanOf(const Setting& setting, uint32_t seed, const Effort& effort) {
   Method path = bias::pathMethod(effort.truthFrames);
+  path.config.integrator = setting.truth;
   path.config.threads = effort.threads;
   path.config.width = setting.method.config.width;
   path.config.height = setting.method.config.height;
@@ -298,10 +300,25 @@ TEST(Canary, NightlyHistoriesWithoutACapAreSeenInTheVarianceOfALongMean) {
   EXPECT_GT(wrong.lo, 1.2 * right.hi);
 }
 
+// A mistake that all techniques of `path` share is in its reference, too: only that of `bdpt` shows
+// it.
+TEST(Canary, AMistakeOfPathIsSeenByBdpt) {
+  Setting setting = still("cornell-box", {});
+  setting.method = bias::pathMethod(8);
+  Setting other = setting;
+  other.truth = "bdpt";
+  Trial(other, kObvious).expectRight();
+  const WrongKernels wrong("half_density_of_lamps");
+  Trial(setting, kObvious).expectRight();
+  const Trial trial(other, kObvious);
+  trial.expectRejected("half_density_of_lamps", trial.certify());
+}
+
 // Checks that every patch is used by a test.
 TEST(Canary, EveryOneIsTried) {
-  // Tested by the variance of a long mean, and in extremes_test.cpp.
-  std::set<std::string> tried = {"no_cap", "absolute_epsilon", "clamp_at_1e3", "fixed_ray_offset"};
+  // Tested by the variance of a long mean, against bdpt, and in extremes_test.cpp.
+  std::set<std::string> tried = {"no_cap", "absolute_epsilon", "clamp_at_1e3", "fixed_ray_offset",
+                                 "half_density_of_lamps"};
   for (const auto* canaries : {&kOfWeights, &kOfNearDonors, &kOfFilm, &kOfWalks, &kOfReplay,
                                &kOfReplayedWalks, &kOfChangingLight})
     tried.insert(canaries->begin(), canaries->end());

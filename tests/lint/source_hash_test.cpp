@@ -23,7 +23,8 @@ class SourceHash : public TemporaryFolder {
     TemporaryFolder::SetUp();
     for (const char* file :
          {"core/frame/session.cpp", "core/kernels/path.h", "core/CMakeLists.txt", "core/readme.md",
-          "integrators/path/path.cpp", "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
+          "integrators/path/path.cpp", "integrators/bdpt/bdpt.cpp",
+          "integrators/restir_gi/reuse.glsl", "denoise/none/none.cpp",
           "experiments/runner/run/temporal.cpp", "experiments/runner/run/experiment.h",
           "experiments/runner/tables/table.cpp", "experiments/statistics/halves_noise.cpp",
           "tests/unit/rng_test.cpp"})
@@ -33,7 +34,7 @@ class SourceHash : public TemporaryFolder {
     fs::create_directories((folder() / file).parent_path());
     std::ofstream(folder() / file) << text;
   }
-  // Returns the hashes by name: SOURCE, REFERENCE, MEASURING.
+  // Returns the hashes by name: SOURCE, REFERENCE, BDPT, MEASURING.
   std::map<std::string, std::string> hashes() const {
     const fs::path header = folder() / "source_hash.h";
     const CommandResult result =
@@ -49,7 +50,7 @@ class SourceHash : public TemporaryFolder {
     const std::regex define("RESTLAB_(\\w+)_HASH \"([0-9a-f]{16})\"");
     for (std::sregex_iterator it(all.begin(), all.end(), define), end; it != end; ++it)
       found[(*it)[1]] = (*it)[2];
-    EXPECT_EQ(found.size(), 3u) << all;
+    EXPECT_EQ(found.size(), 4u) << all;
     return found;
   }
   // Returns the names of the hashes that a changed text of `file` changes, such as "SOURCE
@@ -66,10 +67,11 @@ class SourceHash : public TemporaryFolder {
 
 TEST_F(SourceHash, IsOfTheSourcesThatDecideTheNumbers) {
   EXPECT_EQ(hashes(), hashes());
-  EXPECT_EQ(changedBy("core/frame/session.cpp"), "REFERENCE SOURCE ");
-  EXPECT_EQ(changedBy("core/kernels/path.h"), "REFERENCE SOURCE ");
-  EXPECT_EQ(changedBy("core/CMakeLists.txt"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/frame/session.cpp"), "BDPT REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/kernels/path.h"), "BDPT REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("core/CMakeLists.txt"), "BDPT REFERENCE SOURCE ");
   EXPECT_EQ(changedBy("integrators/path/path.cpp"), "REFERENCE SOURCE ");
+  EXPECT_EQ(changedBy("integrators/bdpt/bdpt.cpp"), "BDPT SOURCE ");
   EXPECT_EQ(changedBy("integrators/restir_gi/reuse.glsl"), "SOURCE ");
   EXPECT_EQ(changedBy("denoise/none/none.cpp"), "SOURCE ");
   EXPECT_EQ(changedBy("experiments/runner/run/temporal.cpp"), "MEASURING ");

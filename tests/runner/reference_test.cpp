@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "core/base/error.h"
+#include "core/image/metrics/metrics.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference_halves.h"
@@ -278,6 +279,28 @@ TEST(ReferenceKey, TellsCamerasApart) {
     camera.kind = rl::RL_CAMERA_ORTHOGRAPHIC;
     nudge(camera.ymag);
   });
+}
+
+TEST(ReferenceKey, TellsIntegratorsApart) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig other = smallConfig();
+  other.integrator = "bdpt";
+  EXPECT_NE(referenceKey(scene, other), referenceKey(scene, smallConfig()));
+  EXPECT_NE(referenceSources("bdpt"), referenceSources("path"));
+}
+
+TEST(ReferenceByBdpt, IsOneOfTheSameImage) {
+  const PreparedScene scene = prepared();
+  ReferenceConfig config = smallConfig();
+  config.integrator = "bdpt";
+  const Reference second = renderReference(scene, config, {.spp = 64});
+  EXPECT_EQ(second.metadata.at("integrator"), "bdpt");
+  EXPECT_EQ(second.metadata.at("reference_sources"), referenceSources("bdpt"));
+  const Reference first = renderReference(scene, smallConfig(), {.spp = 64});
+  // Both are references for one method.
+  EXPECT_NO_THROW(requireSameConfiguration("second.exr", second.metadata, first.metadata));
+  const double mean = channelMeans(first.mean).y;
+  EXPECT_NEAR(channelMeans(second.mean).y, mean, 0.15 * mean);
 }
 
 TEST(ReferenceKey, ZeroHasOneSign) {

@@ -56,6 +56,8 @@ TEST_F(SuiteTest, OneBackendLeavesNamesAlone) {
   EXPECT_EQ(suite.methods[0].session.backend, "vulkan");
   EXPECT_EQ(suite.referenceBackend, "cpu") << "references do not follow the methods";
   EXPECT_EQ(load("", kMethods, {"reference.backend=vulkan"}).referenceBackend, "vulkan");
+  EXPECT_EQ(suite.referenceIntegrator, "path");
+  EXPECT_EQ(load("", kMethods, {"reference.integrator=bdpt"}).referenceIntegrator, "bdpt");
 }
 
 TEST_F(SuiteTest, AMethodsOwnBackendWins) {

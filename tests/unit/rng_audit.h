@@ -16,6 +16,7 @@ namespace rl {
 
 extern const CpuKernelEntry kernel_path_audited;
 extern const CpuKernelEntry kernel_template_audited;
+extern const CpuKernelEntry kernel_bdpt_audited;
 extern const CpuKernelEntry kernel_local_audited;
 extern const CpuKernelEntry kernel_radiosity_rays_audited;
 extern const CpuKernelEntry kernel_radiosity_direct_audited;

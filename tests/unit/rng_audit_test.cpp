@@ -218,6 +218,12 @@ TEST(RngAudit, Template) {
   }
 }
 
+TEST(RngAudit, Bdpt) {
+  for (const std::string& name : test::variedScenes())
+    expectNoRepeats({name, {"bdpt", "unbiased", {{"bdpt", rl::kernel_bdpt_audited}}}},
+                    "bdpt, " + name);
+}
+
 TEST(RngAudit, Local) {
   // Make every loop over draws run more than once.
   const ParameterMap busy = {{"light_samples", int64_t{5}},

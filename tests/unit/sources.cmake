@@ -31,6 +31,7 @@ list(APPEND RL_UNIT_TESTS
   frame_graph_test.cpp
   replay_sample_test.cpp
   reservoir_store_test.cpp
+  rng_audit_bdpt.cpp
   rng_audit_local.cpp
   rng_audit_path.cpp
   rng_audit_radiance_trace.cpp

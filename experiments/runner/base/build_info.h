@@ -11,6 +11,7 @@ namespace restlab {
 struct BuildInfo {
   std::string sourceHash;     // of core/, integrators/, denoise/
   std::string referenceHash;  // of core/, integrators/path/
+  std::string bdptHash;       // of core/, integrators/bdpt/
   std::string measuringHash;  // of the sources in experiments/ that compute a run's numbers
   std::string gitCommit;      // "unknown" outside a repository
   bool gitDirty = false;

@@ -34,6 +34,10 @@ std::string exactly(const SceneCamera& camera) {
 
 }  // namespace
 
+const std::string& referenceSources(const std::string& integrator) {
+  return integrator == "bdpt" ? buildInfo().bdptHash : buildInfo().referenceHash;
+}
+
 bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
                    double timeS, double sppForLights) {
   if (target.spp && spp >= target.spp) return true;
@@ -70,12 +74,19 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
   return config;
 }
 
+ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture) {
+  ReferenceConfig config = referenceConfigOf(picture);
+  config.integrator = suite.referenceIntegrator;
+  return config;
+}
+
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config) {
   const SceneCamera* camera = cameraInsteadOf(prepared, config);
-  std::string text =
-      fmt::format("reference-3 {} camera {} {}x{} {} sources {}", hexHash(prepared.contentHash),
-                  camera ? exactly(*camera) : std::to_string(prepared.camera), config.width,
-                  config.height, componentName(config.components), buildInfo().referenceHash);
+  std::string text = fmt::format(
+      "reference-3 {} camera {} {}x{} {} sources {}", hexHash(prepared.contentHash),
+      camera ? exactly(*camera) : std::to_string(prepared.camera), config.width, config.height,
+      componentName(config.components), referenceSources(config.integrator));
+  if (config.integrator != "path") text += " by " + config.integrator;
   for (const auto& [name, value] : transportTexts(config, true)) text += " " + name + " " + value;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return hexHash(hash.high64) + hexHash(hash.low64);
@@ -143,8 +154,15 @@ void requireSameConfiguration(const std::string& file,
       "scene_hash",      "camera_index", "camera_to_world", "camera_yfov", "camera_shift",
       "camera_mirrored", "width",        "height",          "component",   "reference_sources"};
   for (const auto& setting : transportTexts({}, true)) items.push_back(setting.first);
+  const auto kind = reference.find("kind"), by = reference.find("integrator");
+  const bool isByOther = kind != reference.end() && kind->second == "reference" &&
+                         by != reference.end() && by->second != "path";
   for (const std::string& item : items) {
-    const auto have = pictureWord(reference, item), want = pictureWord(wanted, item);
+    const auto have = pictureWord(reference, item);
+    auto want = pictureWord(wanted, item);
+    // `wanted` names the sources of `path`, of this version or of another one.
+    if (item == "reference_sources" && have && want && isByOther)
+      want = *want == buildInfo().referenceHash ? referenceSources(by->second) : *have;
     if (!have || !want || *have == *want) continue;
     failInput(fmt::format("{}: the reference is of another configuration: {} is {}, not {}", file,
                           item, *have, *want));

@@ -1,6 +1,6 @@
-// Converged references: rendered by `path` with Russian roulette off, in two independent halves
-// that give an estimate of the error; cached under a key of all their inputs, and extended on
-// demand.
+// Converged references: rendered by `path`, or by `bdpt` where that is asked for, with Russian
+// roulette off, in two independent halves that give an estimate of the error; cached under a key of
+// all their inputs, and extended on demand.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,13 @@
 #include "experiments/runner/reference/reference_progress.h"
 #include "experiments/runner/suite/prepare.h"
 #include "experiments/runner/suite/reference_target.h"
+#include "experiments/runner/suite/suite.h"
 
 namespace restlab {
 
 // Inputs of a reference besides the scene.
 struct ReferenceConfig : TransportSettings {
+  std::string integrator = "path";  // one of referenceIntegrators()
   uint32_t width = 0, height = 0;
   // Replaces the scene's camera, e.g. by one on a camera path.
   std::optional<SceneCamera> camera;
@@ -29,6 +31,9 @@ struct ReferenceConfig : TransportSettings {
 
 // Returns the reference of what `session` renders: same picture, same device, without the method.
 ReferenceConfig referenceConfigOf(const SessionConfig& session);
+
+// Returns the reference of a picture of a suite.
+ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture);
 
 // Returns the camera of `config` if its view is not exactly that of the scene's camera; else
 // nothing.
@@ -63,13 +68,15 @@ std::string whyNotConverged(const Reference& reference);
 constexpr uint32_t kReferenceLayers = 4;
 
 // Approximate memory of renderReference: two sessions of `path`, each a buffer and an image; the
-// sums; the layers and their copies.
+// sums; the layers and their copies. Buffers of another integrator are counted by its sessions.
 constexpr size_t kReferenceBytesPerPixel =
     4 * sizeof(glm::vec3) + kStateBytesPerPixel + 2 * kReferenceLayers * sizeof(glm::vec3);
 
+// Hash of the sources of core/ and of the integrator that renders a reference.
+const std::string& referenceSources(const std::string& integrator);
+
 // Hashes the bytes of scene and environment, camera (the number of the scene's, all numbers of
-// another one), size, bounces, components, filter, multiscatter and the sources of core/ and
-// integrators/path.
+// another one), size, bounces, components, filter, multiscatter and referenceSources().
 std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& config);
 
 // Renders until the target is reached, from the progress that `store` has of this key, seed and

@@ -36,8 +36,8 @@ void addName(std::vector<std::string>& names, const std::string& name) {
 
 SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceConfig& config) {
   SessionConfig session;
-  session.integrator = "path";
-  session.mode = findIntegrator("path").modes.front().name;
+  session.integrator = config.integrator;
+  session.mode = findIntegrator(config.integrator).modes.front().name;
   session.width = config.width;
   session.height = config.height;
   session.camera = prepared.camera;

@@ -110,6 +110,7 @@ Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& conf
   reference.metadata["device"] = joined(state.devices);
   reference.metadata["ray_tracing"] = joined(state.rayTracing);
   reference.metadata["kind"] = "reference";
+  reference.metadata["reference_sources"] = referenceSources(config.integrator);
   reference.metadata["reference_key"] = state.id.key;
   reference.metadata["seed"] = std::to_string(state.id.seed);
   reference.metadata["spp"] = std::to_string(reference.spp);
@@ -128,7 +129,7 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
     failUsage("a reference needs a target: spp, target-relmse or time-limit");
   }
   if (target.spp == 1) failUsage("a reference needs at least 2 spp: one for each of its halves");
-  requireMemory("path", config.width, config.height, kReferenceBytesPerPixel);
+  requireMemory(config.integrator, config.width, config.height, kReferenceBytesPerPixel);
   const ReferenceId id{referenceKey(prepared, config), config.seed, config.backend};
   ReferenceProgress kept(store, id);
   std::optional<ReferenceState> found = kept.load();

@@ -82,7 +82,7 @@ ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
     there.text = "a file";
     return there;
   }
-  ReferenceConfig config = referenceConfigOf(picture);
+  ReferenceConfig config = referenceOfSuite(suite, picture);
   if (scene.truth != Truth::rendered) {
     const PreparedScene plain = plainOf(suite, scene, prepared, config);
     std::optional<Reference> truth;

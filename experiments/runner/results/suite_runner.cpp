@@ -396,7 +396,7 @@ class SuiteRun {
     const std::string label = referenceLabel(suite, block);
     try {
       const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
-      ReferenceConfig config = referenceConfigOf(picture);
+      ReferenceConfig config = referenceOfSuite(suite, picture);
       const fs::path folder = request_.out / "references";
       if (scene.truth != Truth::rendered) {
         block.reference = obtainTruth(suite, scene, prepared, config, folder);

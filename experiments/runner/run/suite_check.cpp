@@ -110,7 +110,7 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   atPlace(scene.place, [&] { sceneResolution(suite, scene, prepared, width, height); });
   if (scene.truth != Truth::rendered) {
     for (const uint32_t component : suite.components) {
-      ReferenceConfig config = referenceConfigOf(pictureOf(suite, width, height, component));
+      ReferenceConfig config = referenceOfSuite(suite, pictureOf(suite, width, height, component));
       plainOf(suite, scene, prepared, config);
     }
   }

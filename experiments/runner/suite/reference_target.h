@@ -2,8 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace restlab {
+
+// Integrators that may render a reference, the default first. They estimate the same image and
+// share no choice of lights.
+inline const std::vector<std::string>& referenceIntegrators() {
+  static const std::vector<std::string> names = {"path", "bdpt"};
+  return names;
+}
 
 // Source of the reference of a scene.
 enum class Truth {

@@ -121,6 +121,7 @@ struct Suite : TransportSettings {
   bool validate = false;
   std::string devicePlace, rayTracingPlace;  // for errors
   std::string referenceBackend = "cpu", referenceBackendPlace;
+  std::string referenceIntegrator = "path";  // one of referenceIntegrators()
   int threads = 0;
   ReferenceTarget target;
 

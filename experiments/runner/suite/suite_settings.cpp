@@ -230,6 +230,8 @@ const std::vector<std::string>& settingsKeys() {
 void readReference(const ConfigTable& table, Suite& suite) {
   suite.referenceBackend = table.getChoice("backend", suite.referenceBackend, backendNames());
   suite.referenceBackendPlace = table.place("backend");
+  suite.referenceIntegrator =
+      table.getChoice("integrator", suite.referenceIntegrator, referenceIntegrators());
   ReferenceTarget& target = suite.target;
   target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
   target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
