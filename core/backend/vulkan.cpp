@@ -20,6 +20,7 @@
 #include "core/backend/vulkan_parts.h"
 #include "core/backend/vulkan_recording.h"
 #include "core/backend/vulkan_scene.h"
+#include "core/backend/vulkan_slot.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/scene/compiled/compiled_scene.h"
@@ -33,25 +34,6 @@ constexpr uint32_t kSlots = 2;  // frames in flight
 constexpr uint32_t kFirstBandPixels = 1u << 18;
 constexpr uint32_t kFirstBandPixelsOfCpu = 1u << 16;
 constexpr double kLongestBandMs = 500.0;  // watchdogs end dispatches of a few seconds
-
-// Memory that the host writes before a frame and reads after it.
-struct Slot {
-  GpuBuffer inputs;    // frame data, then for each pass the addresses of its buffers and parameters
-  GpuBuffer counters;  // GlslCounters for each band
-  VulkanParts parts;   // submission of the running commands
-  VulkanKernels::Bound bound;  // set if kernels read by texels
-  std::map<RecordingKey, Recording> recordings;
-  const Recording* running = nullptr;
-  bool isStale = false;  // the recordings have bands that are too long
-  RecordingKey runningKey;
-  std::chrono::steady_clock::time_point started;
-};
-
-constexpr size_t kInputBytes = 128 * 1024;
-constexpr size_t kCounterBytes = 64 * 1024;
-constexpr size_t kPassOffset = 256;
-constexpr size_t kPassBytes = 2048;  // addresses, then parameters
-constexpr size_t kPassParams = 1024;
 
 class VulkanBackend final : public Backend {
  public:
@@ -155,27 +137,14 @@ class VulkanBackend final : public Backend {
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     placeBuffers();
-    if (underWay_.size() == framesInFlight()) finished_.push_back(finishOldest());
-    Slot& slot = slots_[next_];
-    next_ = (next_ + 1) % kSlots;
-    RecordingKey key;
-    StartupReport ignored;
-    for (const PassRun& pass : passes) {
-      const glm::uvec2 size = pass.size(frame);
-      key.pipelines.push_back(pipelineOf(pass, ignored));
-      key.sizes.push_back({size.x, size.y});
+    FrameResult before;
+    auto first = passes.begin();
+    for (; size_t(passes.end() - first) > kMostPasses; first += kMostPasses) {
+      while (!underWay_.empty()) finished_.push_back(finishOldest());
+      submitPart({first, first + kMostPasses}, frame, std::move(before));
+      before = finishOldest();
     }
-    writeInputs(slot, passes, frame);
-    if (slot.isStale) forget(slot);
-    auto found = slot.recordings.find(key);
-    if (found == slot.recordings.end())
-      found = slot.recordings.emplace(key, record(slot, key)).first;
-    slot.running = &found->second;
-    slot.runningKey = key;
-    std::memset(slot.counters.mapped, 0, kCounterBytes);
-    slot.started = std::chrono::steady_clock::now();
-    slot.parts.begin(device_, slot.running->commands);
-    underWay_.push_back(&slot);
+    submitPart({first, passes.end()}, frame, std::move(before));
   }
 
   FrameResult collect() override {
@@ -192,6 +161,33 @@ class VulkanBackend final : public Backend {
   }
 
  private:
+  // Submits passes of a frame; `before`: results of those before them.
+  void submitPart(const std::vector<PassRun>& passes, const rl::FrameData& frame,
+                  FrameResult before) {
+    if (underWay_.size() == framesInFlight()) finished_.push_back(finishOldest());
+    Slot& slot = slots_[next_];
+    next_ = (next_ + 1) % kSlots;
+    RecordingKey key;
+    StartupReport ignored;
+    for (const PassRun& pass : passes) {
+      const glm::uvec2 size = pass.size(frame);
+      key.pipelines.push_back(pipelineOf(pass, ignored));
+      key.sizes.push_back({size.x, size.y});
+    }
+    slot.before = std::move(before);
+    writeInputs(slot, passes, frame);
+    if (slot.isStale) forget(slot);
+    auto found = slot.recordings.find(key);
+    if (found == slot.recordings.end())
+      found = slot.recordings.emplace(key, record(slot, key)).first;
+    slot.running = &found->second;
+    slot.runningKey = key;
+    std::memset(slot.counters.mapped, 0, kCounterBytes);
+    slot.started = std::chrono::steady_clock::now();
+    slot.parts.begin(device_, slot.running->commands);
+    underWay_.push_back(&slot);
+  }
+
   static const DialectKernel& find(const std::string& kernel) {
     for (const DialectKernel& known : dialectKernels()) {
       if (known.name == kernel) return known;
@@ -280,8 +276,7 @@ class VulkanBackend final : public Backend {
       std::byte* at = slot.inputs.mapped + passOffset(i);
       const size_t addressBytes = addresses.size() * sizeof(uint64_t);
       const size_t paramBytes = passes[i].params.size();
-      if (addressBytes > kPassParams || paramBytes > kPassBytes - kPassParams ||
-          passOffset(i + 1) > kInputBytes) {
+      if (addressBytes > kPassParams || paramBytes > kPassBytes - kPassParams || i >= kMostPasses) {
         throw std::logic_error("a pass has more buffers or parameters than a slot holds");
       }
       std::memcpy(at, addresses.data(), addressBytes);
@@ -407,8 +402,9 @@ class VulkanBackend final : public Backend {
             .count();
     device_.throwValidationMessages();
     const Recording& recording = *slot.running;
-    FrameResult result;
-    result.timesMs.assign(slot.runningKey.pipelines.size(), 0.0);
+    FrameResult result = std::move(slot.before);
+    const size_t earlier = result.timesMs.size();
+    result.timesMs.resize(earlier + slot.runningKey.pipelines.size(), 0.0);
     result.counters.resize(result.timesMs.size());
     std::vector<uint64_t> stamps(2 * recording.bands.size());
     if (recording.queries != VK_NULL_HANDLE) {
@@ -425,11 +421,11 @@ class VulkanBackend final : public Backend {
       const double timeMs = recording.queries != VK_NULL_HANDLE
                                 ? device_.timestampMs(stamps[2 * i], stamps[2 * i + 1])
                                 : wallMs / double(recording.bands.size());
-      result.timesMs[band.pass] += timeMs;
+      result.timesMs[earlier + band.pass] += timeMs;
       isTooLong |= shortenBands(slot.runningKey, band, timeMs);
       GlslCounters counters;
       std::memcpy(&counters, slot.counters.mapped + i * sizeof counters, sizeof counters);
-      PassCounters& sum = result.counters[band.pass];
+      PassCounters& sum = result.counters[earlier + band.pass];
       sum.raysPath += counters.raysPath;
       sum.raysShadow += counters.raysShadow;
       for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) sum.health[k] += counters.health[k];

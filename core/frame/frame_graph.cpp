@@ -33,6 +33,9 @@ GraphPass& GraphPass::updates(std::initializer_list<Buffer> buffers) {
 
 GraphPass& GraphPass::over(size_t elements) {
   if (elements == 0) failUsage(fmt::format("pass {}: runs over no element", name));
+  if (elements > 0xffff0000u)
+    failUsage(
+        fmt::format("pass {}: runs over {} elements, more than 32 bits count", name, elements));
   entries = static_cast<uint32_t>(elements);
   return *this;
 }
@@ -42,8 +45,8 @@ GraphPass& GraphPass::replays() {
   return *this;
 }
 
-GraphPass& GraphPass::once() {
-  isOnce = true;
+GraphPass& GraphPass::once(bool isForScene) {
+  isOnce = isForScene;
   return *this;
 }
 

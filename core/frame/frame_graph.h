@@ -104,8 +104,8 @@ struct GraphPass {
   // Runs over this many elements, at least one, instead of over pixels (RL_ENTRY_ROW).
   GraphPass& over(size_t elements);
   GraphPass& replays();
-  // Marks work for the scene: its time is told apart from that of frames.
-  GraphPass& once();
+  // Marks work for the scene, if `isForScene`: its time is told apart from that of frames.
+  GraphPass& once(bool isForScene = true);
 
   // Buffer of a slot as the kernel sees it.
   Buffer bound(size_t slot) const;

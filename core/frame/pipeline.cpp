@@ -234,7 +234,7 @@ void Pipeline::allocate() {
 
 void Pipeline::setScene(std::shared_ptr<const CompiledScene> scene) {
   scene_ = std::move(scene);
-  ages_.light = 0;
+  ages_.light = keptAges_.light = 0;
 }
 
 void Pipeline::prepare(StartupReport& report) {
@@ -316,6 +316,7 @@ std::vector<PassRun> Pipeline::beginFrame(bool isNewView) {
     while (column < columns_.size() && columns_[column].name != pass.name) ++column;
     if (column == columns_.size())
       failUsage(fmt::format("pass {}: a frame of a new view lacks it", pass.name));
+    ran.columns[column].isOnce = pass.isOnce;
     ran.runs.push_back(column++);
   }
   const std::vector<size_t> order = graph_.order();

@@ -88,6 +88,18 @@ RL_FN bool bdptJoin(RL_IN(BdptPath) eye, RL_IN(BdptPath) light, RL_IN(BdptStart)
   }
   if (rlIsBlack(value)) return false;
 
+  if (isAtCamera)
+    join.rank = bdptRankTowards(light, -dirW);
+  else
+    join.rank = bdptRankTowards(eye, dirW);
+  bool scatters = false;  // the medium between the two
+  if (RL_HAS(RL_FEATURE_SCATTERING)) {
+    vec4 medium = mediaScattering(join.rank);
+    scatters = !rlIsBlack(vec3(medium));
+    // A diffusion profile stands for all light that has entered by a surface.
+    if (medium.w == RL_PHASE_DIFFUSION && !isAtCamera && !isAtStart) return false;
+  }
+
   if (gParams.exponent != RL_BDPT_ALONE) {
     float ofThere = leavesHere * (isFar ? 1.0f : cosThere * area);
     float beyond = 0.0f;
@@ -95,22 +107,22 @@ RL_FN bool bdptJoin(RL_IN(BdptPath) eye, RL_IN(BdptPath) light, RL_IN(BdptStart)
       if (start.isFindable != 0u) beyond = bdptPower(ofThere / start.pdf);
     } else {
       beyond = bdptPower(rlSafeDivide(ofThere, light.density)) *
-               (light.joins + bdptPower(backThere) * light.others);
+               (light.joins + min(bdptPower(backThere) * light.others, RL_BDPT_LARGEST));
     }
     float others = 0.0f;
-    if (!isAtCamera) others = eye.joins + bdptPower(backHere) * eye.others;
+    // No light's path crosses a medium that scatters.
+    if (!isAtCamera && !scatters)
+      others = eye.joins + min(bdptPower(backHere) * eye.others, RL_BDPT_LARGEST);
     value *= bdptWeight(leavesThere * cosHere * area, eye.density, others, beyond);
   }
 
   vec3 sigma = vec3(0.0f, 0.0f, 0.0f);
   if (isAtCamera) {
-    join.rank = bdptRankTowards(light, -dirW);
     sigma = surfaceSigma(light.s, light.sigma, -dirW);
     join.ray.origin = surfaceOffset(light.s.posW, light.s.nGeoW, light.s.posError, -dirW);
     join.ray.dir = here - join.ray.origin;
     join.ray.tMax = 1.0f;
   } else {
-    join.rank = bdptRankTowards(eye, dirW);
     sigma = surfaceSigma(eye.s, eye.sigma, dirW);
     join.ray.origin = surfaceOffset(eye.s.posW, eye.s.nGeoW, eye.s.posError, dirW);
     vec3 target = there;

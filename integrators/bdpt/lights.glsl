@@ -1,6 +1,7 @@
 // Weighs the lights of a block, and bounds the instances of the same number. Weights only steer how
 // lights are chosen: lamps by power (W), suns by irradiance. An estimate of the scene's box will
-// do: light from infinity that misses it is found by other strategies.
+// do: light from infinity that misses it is found by the sky's own directions and by the camera's
+// paths.
 
 RL_FN float bdptLightWeight(RL_IN(Light) light) {
   float radiance = rlMax3(light.radiance);

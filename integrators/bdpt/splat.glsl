@@ -6,21 +6,27 @@ RL_FN uint bdptUnitExponent() {
   return exponent == 0u ? 127u : min(exponent, 254u);
 }
 
-// Adds one channel. Returns false if the value is beyond the range.
-RL_FN bool bdptSplatChannel(uint at, float value, uint unitExponent) {
+// Returns whether a value is not beyond the range.
+RL_FN bool bdptSplatFits(float value, uint unitExponent) {
+  uint exponent = floatBitsToUint(value) >> 23u;
+  int shift = int(exponent) - int(unitExponent) + int(RL_BDPT_UNIT_BIT) - 23;
+  return exponent == 0u || shift < 0 || uint(shift) / RL_BDPT_DIGIT_BITS + 3u <= RL_BDPT_DIGITS;
+}
+
+// Adds one channel that fits.
+RL_FN void bdptSplatChannel(uint at, float value, uint unitExponent) {
   uint bits = floatBitsToUint(value);
   uint exponent = bits >> 23u;
-  if (exponent == 0u) return true;
+  if (exponent == 0u) return;
   uint mantissa = (bits & 0x7fffffu) | 0x800000u;
   int shift = int(exponent) - int(unitExponent) + int(RL_BDPT_UNIT_BIT) - 23;
   if (shift < 0) {
-    if (shift <= -24) return true;
+    if (shift <= -24) return;
     mantissa = mantissa >> uint(-shift);
     shift = 0;
   }
   uint digit = uint(shift) / RL_BDPT_DIGIT_BITS;
   uint within = uint(shift) % RL_BDPT_DIGIT_BITS;
-  if (digit + 3u > RL_BDPT_DIGITS) return false;
   uint mask = (1u << RL_BDPT_DIGIT_BITS) - 1u;
   uint low = (mantissa << within) & mask;
   uint middle = (mantissa >> (RL_BDPT_DIGIT_BITS - within)) & mask;
@@ -28,19 +34,23 @@ RL_FN bool bdptSplatChannel(uint at, float value, uint unitExponent) {
   if (low != 0u) RL_ATOMIC_ADD(gBuffers.splats, at + digit * 3u, low);
   if (middle != 0u) RL_ATOMIC_ADD(gBuffers.splats, at + digit * 3u + 3u, middle);
   if (high != 0u) RL_ATOMIC_ADD(gBuffers.splats, at + digit * 3u + 6u, high);
-  return true;
 }
 
 // Adds radiance to a pixel. Values that are not finite, or more than 2^39 times as bright as any
 // light, are left out and counted.
 RL_FN void bdptSplat(uint pixelIndex, RL_IN(vec3) radiance) {
-  if (!(rlMax3(radiance) > 0.0f)) return;
+  if (rlIsBlack(radiance)) return;
   uint first = pixelIndex * RL_BDPT_SPLAT_WORDS;
   uint unitExponent = bdptUnitExponent();
-  bool isInRange = rlIsFinite3(radiance);
-  if (isInRange) isInRange = bdptSplatChannel(first, radiance.x, unitExponent);
-  if (isInRange) isInRange = bdptSplatChannel(first + 1u, radiance.y, unitExponent);
-  if (isInRange) isInRange = bdptSplatChannel(first + 2u, radiance.z, unitExponent);
-  if (!isInRange) RL_HEALTH(RL_HEALTH_NONFINITE);
+  bool isInRange = rlIsFinite3(radiance) && bdptSplatFits(radiance.x, unitExponent) &&
+                   bdptSplatFits(radiance.y, unitExponent) &&
+                   bdptSplatFits(radiance.z, unitExponent);
+  if (!isInRange) {
+    RL_HEALTH(RL_HEALTH_NONFINITE);
+  } else {
+    bdptSplatChannel(first, radiance.x, unitExponent);
+    bdptSplatChannel(first + 1u, radiance.y, unitExponent);
+    bdptSplatChannel(first + 2u, radiance.z, unitExponent);
+  }
   RL_ATOMIC_ADD(gBuffers.splats, first + RL_BDPT_SPLAT_WORDS - 1u, 1u);
 }

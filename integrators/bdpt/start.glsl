@@ -13,12 +13,15 @@ RL_FN float bdptDensityAcross() {
   return rlSafeDivide(1.0f, RL_PI * radius * radius);
 }
 
-// The same at a point: 0 outside of the ball's shadow.
-RL_FN float bdptDensityAcrossAt(RL_IN(vec3) posW, RL_IN(vec3) dirW) {
+// The same at a point: 0 outside of the ball's shadow, and between the ball and the light, where no
+// ray begins.
+RL_FN float bdptDensityAcrossAt(RL_IN(vec3) posW, RL_IN(vec3) toSky) {
   vec3 d = posW - bdptCentre();
-  float along = dot(d, dirW);
+  float along = dot(d, toSky);
   float radius = bdptRadius();
-  return dot(d, d) - along * along < radius * radius ? bdptDensityAcross() : 0.0f;
+  bool isBehind = along < radius;
+  bool isInShadow = dot(d, d) - along * along < radius * radius;
+  return isBehind && isInShadow ? bdptDensityAcross() : 0.0f;
 }
 
 RL_FN uint bdptRecordsOfBlock(uint block) {
@@ -29,18 +32,20 @@ RL_FN uint bdptRecordsOfBlock(uint block) {
 // Probability that a light is chosen.
 RL_FN float bdptLightShare(uint record) {
   float sky = bdptWord(RL_BDPT_TABLE_SKY);
-  if (record == gScene.environmentLight) return sky;
   uint block = record / max(gBuffers.table.data[RL_BDPT_TABLE_PER_BLOCK], 1u);
   uint high = gBuffers.table.data[RL_BDPT_TABLE_BOUNDS + block];
   uint low = block > 0u ? gBuffers.table.data[RL_BDPT_TABLE_BOUNDS + block - 1u] : 0u;
   float share = float(high - low) * 2.3283064365386963e-10f;
-  return (1.0f - sky) * share / float(max(bdptRecordsOfBlock(block), 1u));
+  float ofBlock = (1.0f - sky) * share / float(max(bdptRecordsOfBlock(block), 1u));
+  // The sky may share a block with lamps, and then is chosen in both ways.
+  return record == gScene.environmentLight ? sky + ofBlock : ofBlock;
 }
 
 // Chooses a light; RL_INVALID: none shines.
 RL_FN uint bdptChooseLight(RL_IN(Rng) rng) {
   uint skyBits = rngBits(rng, RL_DIM_RIS_LIGHT);
-  uint blockBits = rngBits(rng, RL_DIM_LIGHT_SELECT);
+  // The bound of the last blocks is the greatest number.
+  uint blockBits = RL_LESSER(rngBits(rng, RL_DIM_LIGHT_SELECT), 0xfffffffeu);
   uint recordBits = rngBits(rng, RL_DIM_LIGHT_ALIAS);
   if (rngUnit(skyBits) < bdptWord(RL_BDPT_TABLE_SKY)) return gScene.environmentLight;
   if (gBuffers.table.data[RL_BDPT_TABLE_BOUNDS + RL_BDPT_BLOCKS - 1u] == 0u) return RL_INVALID;
@@ -203,7 +208,7 @@ RL_FN float bdptConeEdge(RL_IN(BdptStart) start) { return -start.cone.y / start.
 // Density of directions from a light: per solid angle, or per area across one at infinity. posW: a
 // point that the direction leads to.
 RL_FN float bdptDirectionDensity(RL_IN(BdptStart) start, RL_IN(vec3) dirW, RL_IN(vec3) posW) {
-  if (bdptIsFar(start)) return bdptDensityAcrossAt(posW, dirW);
+  if (bdptIsFar(start)) return bdptDensityAcrossAt(posW, -dirW);
   if (start.kind == RL_LIGHT_POINT) return 0.25f * RL_INV_PI;
   float cosine = dot(start.normal, dirW);
   if (start.kind == RL_LIGHT_SPOT) {

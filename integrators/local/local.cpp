@@ -56,8 +56,12 @@ void recordLocal(FrameGraph& g, const FrameInfo& f) {
   const Kernels kernels =
       g.kernels<rl::LocalBuffers>(localParams(s, f), {radiance, lamps, maps, surfaces});
   if (hasMaps && f.lightAge == 0) {
-    kernels.pass("shadow_lamps", "local_lamps").updates({lamps}).over(1).once();
-    kernels.pass("shadow_maps", "local_maps").reads({lamps}).updates({maps}).over(texels).once();
+    kernels.pass("shadow_lamps", "local_lamps").updates({lamps}).over(1).once(f.sceneAge == 0);
+    kernels.pass("shadow_maps", "local_maps")
+        .reads({lamps})
+        .updates({maps})
+        .over(texels)
+        .once(f.sceneAge == 0);
   }
   if (readsScreen && f.isNewView) {
     g.kernels<rl::GBufferBuffers>(rl::GBufferParams{}, {surfaces})

@@ -26,6 +26,7 @@ RL_FN void kernelMain(RL_IN(uvec2) row) {
     return;
   }
   float residual = rlSafeDivide(changed, scale);
+  if (!rlIsFinite(residual)) RL_HEALTH(RL_HEALTH_NONFINITE);
   gBuffers.residuals.data[done] = residual;
   done = done + 1u;
   gBuffers.state.data[RL_RADIOSITY_SET] = 0u;

@@ -99,7 +99,7 @@ uint32_t divisionsOf(const WorldTriangle& t, double size) {
 
 bool isLambert(const rl::Material& m) {
   return m.closure == 0 && m.transmission == 0.0f && m.metallic == 0.0f && m.specular == 0.0f &&
-         (m.flags & rl::RL_MATERIAL_LAYERS) == 0;
+         (m.flags & rl::RL_MATERIAL_LAYERS) == 0 && m.textures[rl::RL_TEX_NORMAL] == rl::RL_INVALID;
 }
 
 template <class Visit>

@@ -69,7 +69,13 @@ RL_FN Surface meshUnknown(uint unknown) {
   id.bary = vec2(uintBitsToFloat(q.z), uintBitsToFloat(q.w));
   SurfacePoint p = surfacePointAt(id);
   vec3 down = (unknown & 1u) == 0u ? -p.normalW : p.normalW;
-  return surfaceLoad(meshHit(id), down);
+  Surface s = surfaceLoad(meshHit(id), down);
+  // One texel of a normal map does not speak for an element.
+  if (RL_HAS(RL_FEATURE_NORMAL_MAPS)) {
+    Material material = recordMaterial(recordInstance(id.instance).material);
+    if (material.textures[RL_TEX_NORMAL] != RL_INVALID) s.nShadeW = s.nGeoW;
+  }
+  return s;
 }
 
 // Area that an unknown stands for, m^2.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/error.h"
@@ -23,6 +24,7 @@ constexpr uint32_t kGaussSeidel = 1;
 constexpr double kMiB = 1048576.0;
 // Loops over all elements must end before some drivers end them.
 constexpr size_t kMostPolygonElements = 60000;
+constexpr uint64_t kMostTurns = 65536;  // of the loop of a frame
 constexpr size_t kMostElements = size_t{1} << 22u;
 
 struct RadiositySettings {
@@ -45,8 +47,8 @@ const Schema<RadiositySettings>& schema() {
   using P = Parameter<S>;
   static const Schema<S> all = {
       P(&S::solver, "solver", Choices{"jacobi", "gauss_seidel", "southwell"},
-        "jacobi: an iteration is a scattering event, and max_bounces ends it; the others go on to "
-        "the end; southwell: progressive, keeps no factors",
+        "jacobi: an iteration is a scattering event, and max_bounces ends it; the others know no "
+        "max_bounces; southwell: progressive, keeps no factors",
         "Goral et al. 1984; Cohen et al. 1988"),
       P(&S::factors, "factors", Choices{"rays", "polygon"},
         "rays: cosine-weighted from each vertex; polygon: Lambert's formula times visibility by "
@@ -57,7 +59,7 @@ const Schema<RadiositySettings>& schema() {
         "the scene's area"),
       P(&S::elements, "elements", Range{1.0, double(kMostElements)},
         "about this many, where element_size is 0", "half a metre in a room of 11 m"),
-      P(&S::factorRays, "factor_rays", Range{16.0, 65536.0},
+      P(&S::factorRays, "factor_rays", Range{16.0, 60000.0},
         "of each side of a vertex, rounded up to a square", "as noisy as elements are coarse"),
       P(&S::lightSamples, "light_samples", Range{16.0, 65536.0},
         "of each side of a vertex, rounded up to a multiple of 16", "as factor_rays"),
@@ -69,7 +71,7 @@ const Schema<RadiositySettings>& schema() {
         "below the error of elements"),
       P(&S::blocks, "blocks", Range{2.0, 1024.0},
         "sets of unknowns of gauss_seidel, one after another", "block Gauss-Seidel"),
-      P(&S::shots, "shots", Range{1.0, 4096.0},
+      P(&S::shots, "shots", Range{1.0, 128.0},
         "sides of elements that an iteration of southwell sends; 1: Southwell's own method",
         "by blocks, so that devices have work"),
       P(&S::iterationsPerFrame, "iterations_per_frame", Range{0.0, 4096.0},
@@ -83,6 +85,8 @@ const Schema<RadiositySettings>& schema() {
 uint32_t squareSide(uint32_t rays) {
   return static_cast<uint32_t>(std::ceil(std::sqrt(double(rays)) - 1e-9));
 }
+
+size_t ceilDivide(size_t a, size_t b) { return (a + b - 1) / b; }
 
 bool keepsFactors(const RadiositySettings& s) { return s.solver != rl::RL_RADIOSITY_SOUTHWELL; }
 
@@ -99,6 +103,12 @@ double factorBytes(const RadiositySettings& s, double elements, double vertices)
   const bool isPolygon = keepsFactors(s) && s.factors == rl::RL_RADIOSITY_POLYGON;
   const size_t most = isPolygon ? kMostPolygonElements : kMostElements;
   const double tooMany = std::max(double(elements) / double(most), mib / double(s.memoryMiB));
+  if (countElements(scene, std::numeric_limits<double>::max()) > most) {
+    failUsage(
+        fmt::format("radiosity: scene {} has {} triangles, each of them an element: at most "
+                    "{} would do",
+                    scene.source().name, elements, most));
+  }
   // Factors by polygons grow with the square of the number of elements.
   const double larger = size * (isPolygon ? std::pow(tooMany, 0.25) : std::sqrt(tooMany)) * 1.05;
   failUsage(fmt::format(
@@ -122,7 +132,12 @@ std::shared_ptr<const ElementMesh> makeMesh(const RadiositySettings& s,
   if (elements > (isPolygon ? kMostPolygonElements : kMostElements))
     failTooLarge(s, scene, size, elements, mibOf(elements, 0.5 * double(elements)));
   std::shared_ptr<const ElementMesh> mesh = makeElementMesh(scene, size);
-  const double mib = mibOf(elements, double(mesh->vertexCount));
+  if (mesh->elementCount == 0)
+    failInput(fmt::format("radiosity: scene {} has no triangles", scene.source().name));
+  // Light samples are kept, too.
+  const double samples = double(mesh->vertexCount) * 2.0 * sizeof(glm::vec3) *
+                         double(ceilDivide(s.lightSamples, rl::RL_RADIOSITY_CHUNK));
+  const double mib = mibOf(elements, double(mesh->vertexCount)) + samples / kMiB;
   if (mib > s.memoryMiB) failTooLarge(s, scene, size, elements, mib);
   return mesh;
 }
@@ -142,8 +157,6 @@ std::shared_ptr<const std::vector<uint32_t>> tableOf(const std::shared_ptr<const
   return {mesh, &words};
 }
 
-size_t ceilDivide(size_t a, size_t b) { return (a + b - 1) / b; }
-
 void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
   if (f.scene == nullptr) failUsage("radiosity: a frame needs a scene");
   const RadiositySettings s = schema().read(f.parameters);
@@ -159,6 +172,17 @@ void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
   const uint32_t shots = uint32_t(std::min<size_t>(s.shots, 2 * elements));
   const uint32_t groups =
       isSouthwell ? shots : uint32_t(ceilDivide(perSet, rl::RL_RADIOSITY_GROUP));
+  if (isSouthwell && ceilDivide(2 * elements, shots) > kMostPolygonElements) {
+    failUsage(fmt::format("radiosity.shots = {}: {} sides of elements ask for {} at least", s.shots,
+                          2 * elements, ceilDivide(2 * elements, kMostPolygonElements)));
+  }
+  const uint32_t perFrame = s.iterationsPerFrame > 0 ? s.iterationsPerFrame : s.iterations;
+  if (uint64_t{perFrame} * sets > kMostTurns) {
+    failUsage(
+        fmt::format("radiosity: {} iterations of {} blocks in a frame: at most {} in all; "
+                    "iterations_per_frame would spread them",
+                    perFrame, sets, kMostTurns));
+  }
   const rl::RadiosityParams params = {.unknowns = uint32_t(unknowns),
                                       .elements = uint32_t(elements),
                                       .raysPerSide = side,
@@ -198,7 +222,10 @@ void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
   const Kernels k = g.kernels<rl::RadiosityBuffers>(
       params, {instances, triangles, table, vertices, albedo, hits, factors, direct, source,
                irradiance, pending, change, shot, chosen, parts, state, residuals, radiance, seen});
-  if (f.sceneAge == 0) {
+  const bool isNew = f.sceneAge == 0;
+  // Solving again after a lamp was switched is work of the frame.
+  const bool isForScene = f.sceneAge == f.lightAge;
+  if (isNew) {
     k.pass("elements", "radiosity_elements").over(elements).reads({table}).writes({albedo}).once();
     if (isPolygon) {
       k.pass("factors", "radiosity_polygons")
@@ -219,14 +246,13 @@ void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
         .over(unknowns * lightChunks)
         .reads({vertices})
         .writes({direct})
-        .once();
+        .once(isNew);
     k.pass("begin", "radiosity_begin")
         .over(std::max(unknowns, 2 * elements))
         .reads({direct})
         .writes({source, irradiance, change, shot, state})
-        .once();
+        .once(isNew);
   }
-  const uint32_t perFrame = s.iterationsPerFrame > 0 ? s.iterationsPerFrame : s.iterations;
   const uint64_t done = uint64_t{f.lightAge} * perFrame;
   if (done < s.iterations) {
     const uint32_t turns = uint32_t(std::min<uint64_t>(perFrame, s.iterations - done)) * sets;
@@ -237,30 +263,30 @@ void recordRadiosity(FrameGraph& g, const FrameInfo& f) {
             .reads({table, albedo, irradiance, state})
             .writes({chosen, parts})
             .updates({shot})
-            .once();
+            .once(isForScene);
         k.pass("shoot", "radiosity_shoot")
             .over(unknowns)
             .reads({table, vertices, chosen, state})
             .updates({irradiance, change})
-            .once();
+            .once(isForScene);
       } else {
         k.pass("gather", "radiosity_gather")
             .over(perSet)
             .reads({table, albedo, hits, factors, source, irradiance, state})
             .writes({pending})
-            .once();
+            .once(isForScene);
         k.pass("commit", "radiosity_commit")
             .over(groups)
             .reads({vertices, source, pending, state})
             .writes({parts})
             .updates({irradiance, change})
-            .once();
+            .once(isForScene);
       }
       k.pass("advance", "radiosity_advance")
           .over(1)
           .reads({parts})
           .updates({state, residuals})
-          .once();
+          .once(isForScene);
     });
   }
   k.pass("shade", "radiosity_shade")

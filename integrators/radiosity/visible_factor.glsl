@@ -32,8 +32,13 @@ RL_FN float visibleFactor(RL_IN(Surface) from, uint element, RL_OUT(uint) side) 
     ray.tMin = 0.0f;
     ray.tMax = 1.0f;
     Hit hit = traceNoHit();
-    arrived += traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+    float passed = traceRay(ray, RL_RAY_SHADOW, 0u, hit);
+    // Rays end before the element: its own coverage is counted here.
+    if (RL_HAS(RL_FEATURE_ALPHA) && passed > 0.0f)
+      passed *= surfaceAlpha(meshHit(meshPoint(element, w)));
+    arrived += passed;
   }
-  // An element at the horizon may have no point above it: what is seen of it counts as seen.
-  return factor * (above > 0.0f ? arrived / above : 1.0f);
+  // An element at the horizon may have no point above it: nobody knows what hides the rest, and it
+  // counts as hidden.
+  return above > 0.0f ? factor * (arrived / above) : 0.0f;
 }

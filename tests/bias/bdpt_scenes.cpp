@@ -190,6 +190,66 @@ Scene wax(bool hasDiffusion) {
   return scene;
 }
 
+// Everything in a thin fog, lamp and camera too.
+Scene fog() {
+  Scene scene = bdptRoom("fog", lambert(kGrey), metal({0.9f, 0.7f, 0.4f}, 0.3f));
+  rl::Material air = glass(0.0f, kNoLoss);
+  air.ior = 1.0f;
+  SceneMaterial material;
+  material.name = "fog";
+  material.data = air;
+  material.sigmaScattering = glm::vec3(0.25f, 0.3f, 0.35f);
+  material.data.sigmaAbsorption = glm::vec3(0.05f);
+  material.phase = 0.3f;
+  scene.materials.push_back(material);
+  scene.geometries.push_back(box("fog", {-1.95, 0.02, -2.95}, {1.95, 2.95, 1.97}));
+  MeshInstance instance;
+  instance.name = "fog";
+  instance.geometry = uint32_t(scene.geometries.size() - 1);
+  instance.material = uint32_t(scene.materials.size() - 1);
+  scene.instances.push_back(instance);
+  return scene;
+}
+
+// A sun low above a plane that reaches far beyond what a box of the scene may hold.
+Scene farGround() {
+  SceneBuilder scene("far ground");
+  ShapeGeometry plane{findShape("plane"), {}};
+  for (const ShapeParameter& p : plane.info->parameters)
+    plane.values.push_back(p.name == std::string("size") ? 40.0f : float(p.fallback));
+  const glm::dmat4 flat =
+      glm::rotate(glm::dmat4(1.0), -glm::radians(90.0), glm::dvec3(1.0, 0.0, 0.0));
+  scene.place("ground", scene.addGeometry(makeShape(plane, "ground")),
+              scene.addMaterial("ground", lambert(kGrey)), flat);
+  scene.add(box("block", {-0.5, 0.0, -1.0}, {0.5, 1.0, 0.0}),
+            scene.addMaterial("block", lambert({0.2f, 0.4f, 0.7f})));
+  PunctualLight sun;
+  sun.name = "sun";
+  sun.kind = rl::RL_LIGHT_DIRECTIONAL;
+  sun.dirW = glm::normalize(glm::dvec3(0.0, -0.5, 1.0));
+  sun.intensity = glm::vec3(2.0f);
+  scene.addLight(sun);
+  scene.setEnvironment(brightSky());
+  scene.addCamera("front", {0.0, 1.6, 4.0}, {0.0, 0.3, -6.0}, 60.0);
+  return scene.finish();
+}
+
+// More lights than blocks of the table, a point among them, and a sky in its block.
+Scene crowdedSky() {
+  SceneBuilder scene("crowded sky");
+  addStage(scene);
+  scene.add(sphere("lamps", {0.8, 0.6, -1.2}, 0.4, 3, false),
+            scene.addMaterial("lamps", lamp({0.5f, 0.4f, 0.3f})));
+  PunctualLight point;
+  point.name = "point";
+  point.posW = {-1.0, 1.8, -0.6};
+  point.intensity = glm::vec3(6.0f);
+  scene.addLight(point);
+  scene.setEnvironment(brightSky());
+  addEye(scene);
+  return scene.finish();
+}
+
 Scene ambientLight() {
   Scene scene = bdptRoom("ambient", lambert(kGrey), metal({0.9f, 0.7f, 0.4f}, 0.3f));
   scene.ambient = glm::vec3(0.1f, 0.2f, 0.3f);
@@ -259,6 +319,9 @@ const std::vector<BdptScene>& bdptScenes() {
       {"mapped-normals", mappedNormals},
       {"wax", [] { return wax(false); }},
       {"profile", [] { return wax(true); }},
+      {"fog", fog},
+      {"far-ground", farGround},
+      {"crowded-sky", crowdedSky},
       {"ambient", ambientLight},
       {"orthographic", parallelEye},
   };

@@ -201,6 +201,21 @@ TEST_F(SummaryTest, RowsSayWhatLightTheyLeaveOut) {
       << row.flags[0];
 }
 
+TEST_F(SummaryTest, RowsSayWhatSolutionIsNotDone) {
+  suite_.methods[1].session.parameters["iterations"] = int64_t{2};
+  const auto flagged = [&](const std::vector<double>& residuals) {
+    for (RunResult& run : block_.methods[1].runs) run.residuals = residuals;
+    const std::vector<std::string> flags = summarise(suite_, block_)[1].flags;
+    return std::any_of(flags.begin(), flags.end(), [](const std::string& flag) {
+      return flag.find("its solution is not done: the last of 2 iterations left 20 %") == 0;
+    });
+  };
+  EXPECT_TRUE(flagged({0.5, 0.2}));
+  EXPECT_FALSE(flagged({0.5, 0.009}));
+  EXPECT_FALSE(flagged({0.5})) << "ended by max_bounces";
+  EXPECT_FALSE(flagged({}));
+}
+
 // Doubted are 2 of 1000 correct rows of 8 runs with nearly normal noise, 13 with a long tail and
 // few pixels.
 TEST_F(SummaryTest, CorrectRowsAreNotDoubted) {

@@ -34,20 +34,25 @@ std::vector<PassTiming> medianPasses(const std::vector<std::vector<PassTiming>>&
     for (const auto& frame : frames) times.push_back(frame.at(pass).timeMs);
     medians[pass].timeMs = median(times);
   }
+  for (size_t pass = 0; pass < medians.size(); ++pass)
+    medians[pass].isOnce = std::all_of(frames.begin(), frames.end(),
+                                       [&](const auto& frame) { return frame.at(pass).isOnce; });
   std::erase_if(medians, [](const PassTiming& pass) { return pass.isOnce; });
   return medians;
 }
 
 // Adds the work for the scene of a frame to that of the frames before it.
 void addSceneWork(const FrameStats& stats, std::vector<PassTiming>& passes) {
-  if (passes.empty()) {
-    passes = stats.passes;
-    std::erase_if(passes, [](const PassTiming& pass) { return !pass.isOnce; });
-    return;
+  for (const PassTiming& pass : stats.passes) {
+    if (!pass.isOnce) continue;
+    const auto known = std::find_if(passes.begin(), passes.end(), [&](const PassTiming& other) {
+      return other.name == pass.name;
+    });
+    if (known == passes.end())
+      passes.push_back(pass);
+    else
+      known->timeMs += pass.timeMs;
   }
-  size_t next = 0;
-  for (const PassTiming& pass : stats.passes)
-    if (pass.isOnce) passes.at(next++).timeMs += pass.timeMs;
 }
 
 // Returns the age at which the error of this frame is recorded, 0 if it is not.

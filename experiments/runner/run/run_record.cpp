@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/frame/integrator.h"
 #include "core/frame/method_settings.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/health_sum.h"
@@ -241,7 +242,7 @@ std::vector<Json> runLines(const Suite& suite, const BlockResult& block, const M
   line["path_rays_per_pixel"] = double(run.health.raysPath) / samples;
   line["shadow_rays_per_pixel"] = double(run.health.raysShadow) / samples;
   if (run.temporal) line["temporal"] = temporalJson(*run.temporal);
-  if (!run.residuals.empty()) line["residuals"] = run.residuals;
+  for (const double residual : run.residuals) line["residuals"].push_back(finiteJson(residual));
   line["health"] = healthJson(run.health);
   line["health_of_warmup"] = healthJson(run.warmupHealth);
   lines.push_back(std::move(line));
@@ -288,14 +289,19 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
       for (const auto& [name, timeMs] : forScene.items())
         run.scenePasses.push_back({name, timeMs.get<double>(), 0, 0, true});
     }
-    run.residuals = line.value("residuals", std::vector<double>());
+    for (const Json& residual : line.value("residuals", Json::array()))
+      run.residuals.push_back(finiteNumber(residual));
     run.health.health = healthOf(line.at("health"));
     run.warmupHealth.health = healthOf(line.at("health_of_warmup"));
     run.health.raysPath = line.at("rays_path").get<uint64_t>();
     run.health.raysShadow = line.at("rays_shadow").get<uint64_t>();
     if (line.contains("temporal")) run.temporal = temporalOf(line.at("temporal"));
     method.featuresLeftOut = line.at("features_left_out").get<std::string>();
-    method.lightLeftOut = line.value("light_left_out", std::string());
+    // Older lines have it from the method alone.
+    if (line.contains("light_left_out"))
+      method.lightLeftOut = line.at("light_left_out").get<std::string>();
+    else if (line.contains("integrator"))
+      method.lightLeftOut = findIntegrator(line.at("integrator").get<std::string>()).leavesOut;
     method.bytesPerPixel = line.at("bytes_per_pixel").get<size_t>();
     method.codeBytes = line.at("code_bytes").get<size_t>();
     method.startupMs = std::max(method.startupMs, line.at("startup_ms").get<double>());

@@ -72,6 +72,19 @@ void judgeUnbiased(MethodSummary& row) {
   }
 }
 
+// Flags an iterated solution that was ended by its number of iterations.
+void flagUnsolved(MethodSummary& row) {
+  constexpr double kSolved = 0.01;
+  if (row.residuals.empty() || !(row.residuals.back() > kSolved)) return;
+  const ParameterMap& parameters = row.method->session.parameters;
+  const auto iterations = parameters.find("iterations");
+  if (iterations == parameters.end()) return;
+  if (int64_t(row.residuals.size()) < std::get<int64_t>(iterations->second)) return;
+  row.flags.push_back(
+      fmt::format("its solution is not done: the last of {} iterations left {} % of the light",
+                  row.residuals.size(), shortNumber(100.0 * row.residuals.back(), 2)));
+}
+
 // Checks the bounds of a biased method. A row counts unless its runs show a violation; undecided
 // bounds are only flagged.
 void judgeBiased(MethodSummary& row) {
@@ -170,6 +183,7 @@ void judge(MethodSummary& row) {
                     100.0 * row.worstShare));
   }
   flagNoise(row);
+  flagUnsolved(row);
   if (isExactEnough(row)) return;
   if (row.bias == BiasClass::unbiased) {
     judgeUnbiased(row);
