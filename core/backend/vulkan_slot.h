@@ -1,4 +1,4 @@
-// What one submission needs for itself: inputs, counters, recorded commands.
+// Memory and commands of one submission: inputs, counters, recorded command buffers.
 #pragma once
 
 #include <chrono>

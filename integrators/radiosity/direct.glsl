@@ -5,7 +5,7 @@
 // frame: a lamp that is switched twice leaves no trace.
 #include "integrators/radiosity/mesh.glsl"
 
-// What a ray of a hemisphere found, times cosine over density, with its weight.
+// Light that a ray of the hemisphere found, times cosine over density, with its weight.
 RL_FN vec3 directFound(RL_IN(Surface) at, RL_IN(Ray) ray, RL_IN(Hit) hit, float pdf) {
   vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
   float pdfLight = 0.0f;
