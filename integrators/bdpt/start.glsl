@@ -45,7 +45,8 @@ RL_FN float bdptLightShare(uint record) {
 RL_FN uint bdptChooseLight(RL_IN(Rng) rng) {
   uint skyBits = rngBits(rng, RL_DIM_RIS_LIGHT);
   // The bound of the last blocks is the greatest number.
-  uint blockBits = RL_LESSER(rngBits(rng, RL_DIM_LIGHT_SELECT), 0xfffffffeu);
+  uint drawn = rngBits(rng, RL_DIM_LIGHT_SELECT);
+  uint blockBits = min(drawn, 0xfffffffeu);
   uint recordBits = rngBits(rng, RL_DIM_LIGHT_ALIAS);
   if (rngUnit(skyBits) < bdptWord(RL_BDPT_TABLE_SKY)) return gScene.environmentLight;
   if (gBuffers.table.data[RL_BDPT_TABLE_BOUNDS + RL_BDPT_BLOCKS - 1u] == 0u) return RL_INVALID;
