@@ -86,15 +86,21 @@ Json supportJson(const PreparedScene& prepared, bool multiscatter) {
     config.width = config.height = 16;  // sizes below are per pixel
     config.threads = 1;
     config.renders = false;
-    const Session session(prepared.scene, config);
-    Json buffers = Json::object();
-    for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
-    all.push_back(
-        {{"name", info->name},
-         {"features_used", featureNames(session.featuresUsed())},
-         {"features_left_out", featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed())},
-         {"bytes_per_pixel", session.bytesPerPixel()},
-         {"buffers", buffers}});
+    try {
+      const Session session(prepared.scene, config);
+      Json buffers = Json::object();
+      for (const auto& [name, bytes] : session.bufferBytesPerPixel()) buffers[name] = bytes;
+      all.push_back(
+          {{"name", info->name},
+           {"features_used", featureNames(session.featuresUsed())},
+           {"features_left_out", featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed())},
+           {"bytes_per_pixel", session.bytesPerPixel()},
+           {"buffers", buffers}});
+    } catch (const Error& error) {
+      // A method may not take every scene.
+      if (error.code() != ExitCode::badInput && error.code() != ExitCode::badUsage) throw;
+      all.push_back({{"name", info->name}, {"refuses", error.what()}});
+    }
   }
   return all;
 }
@@ -239,6 +245,11 @@ void printScene(const PreparedScene& prepared, const Json& json) {
         prepared.loadTimeMs);
   print("features     needed    {}\n", json["features_needed"].get<std::string>());
   for (const Json& integrator : json["integrators"]) {
+    if (integrator.contains("refuses")) {
+      print("{:<12} refuses   {}\n", integrator["name"].get<std::string>(),
+            integrator["refuses"].get<std::string>());
+      continue;
+    }
     print("{:<12} compiled  {}\n", integrator["name"].get<std::string>(),
           integrator["features_used"].get<std::string>());
     print("{:<12} left out  {}\n", "", integrator["features_left_out"].get<std::string>());

@@ -202,6 +202,8 @@ TEST_F(SummaryTest, RowsSayWhatLightTheyLeaveOut) {
 }
 
 TEST_F(SummaryTest, RowsSayWhatSolutionIsNotDone) {
+  suite_.methods[1].session.integrator = "radiosity";
+  suite_.methods[1].session.mode = "biased";
   suite_.methods[1].session.parameters["iterations"] = int64_t{2};
   const auto flagged = [&](const std::vector<double>& residuals) {
     for (RunResult& run : block_.methods[1].runs) run.residuals = residuals;
