@@ -2,7 +2,7 @@
 # core/backend/dialect_sources.h. After the last rl_add_kernel.
 function(rl_embed_dialect output)
   set(patterns "")
-  foreach(folder IN ITEMS core/dialect core/geometry core/shading core/transport core/gbuffer core/bench core/resampling core/path_sample core/reuse core/caches core/radiance_cache core/temporal_gradients integrators denoise)
+  foreach(folder IN ITEMS core/dialect core/geometry core/shading core/transport core/gbuffer core/raster core/bench core/resampling core/path_sample core/reuse core/caches core/radiance_cache core/temporal_gradients integrators denoise)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.glsl ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   endforeach()
   list(APPEND patterns ${PROJECT_SOURCE_DIR}/core/backend/*.glsl) # of devices alone

@@ -76,7 +76,11 @@ struct PassRun {
   std::vector<BufferId> buffers;
   std::vector<std::byte> params;
   uint32_t entries = 0;  // 0: the pass runs over pixels
+  // Vertex stage of a raster pass, whose fragment stage is `kernel` and whose first buffers and
+  // parameters are those of core/raster/raster.h; no name: it is no raster pass.
+  KernelUse vertices = {};
 
+  bool isRaster() const { return !vertices.kernel.empty(); }
   glm::uvec2 size(const rl::FrameData& frame) const {
     if (entries == 0) return {frame.width, frame.height};
     return {rl::RL_ENTRY_ROW, (entries + rl::RL_ENTRY_ROW - 1) / rl::RL_ENTRY_ROW};

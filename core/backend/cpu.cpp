@@ -9,9 +9,11 @@
 #include <chrono>
 #include <cstring>
 #include <deque>
+#include <mutex>
 #include <thread>
 
 #include "core/backend/backend.h"
+#include "core/backend/cpu_raster.h"
 #include "core/backend/embree.h"
 #include "core/backend/units/kernel_units.h"
 #include "core/base/error.h"
@@ -143,6 +145,7 @@ class CpuBackend final : public Backend {
 
   void prepare(const PassRun& pass, StartupReport& report) override {
     compile({{pass.kernel, pass.mask}}, report);
+    if (pass.isRaster()) compile({pass.vertices}, report);
   }
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
@@ -181,31 +184,49 @@ class CpuBackend final : public Backend {
     return unit != nullptr ? unit : builtIn.entry;
   }
 
-  double run(const PassRun& pass, const rl::FrameData& frame, PassCounters& counters) {
-    const rl::CpuKernelEntry entry = find(pass.kernel, pass.mask);
+  // What every kernel of a pass is called with.
+  struct Call {
+    rl::FrameData frame;
     std::vector<void*> addresses;
-    for (BufferId b : pass.buffers)
-      addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
     rl::CpuKernelArgs args;
-    args.scene = &scene_->data();
-    rl::FrameData seen = frame;
-    if (drawnLights_ != kNoBuffer)
-      seen.drawnLights.data = reinterpret_cast<uint32_t*>(buffers_[drawnLights_].data());
-    args.frame = &seen;
-    args.buffers = addresses.data();
-    args.params = pass.params.data();
-    args.embreeScene = scene_->embreeScene();
+  };
 
-    const glm::uvec2 size = pass.size(frame);
+  void fill(Call& call, const PassRun& pass, const rl::FrameData& frame) {
+    for (BufferId b : pass.buffers)
+      call.addresses.push_back(b == kNoBuffer ? nullptr : buffers_[b].data());
+    call.frame = frame;
+    if (drawnLights_ != kNoBuffer)
+      call.frame.drawnLights.data = reinterpret_cast<uint32_t*>(buffers_[drawnLights_].data());
+    call.args.scene = &scene_->data();
+    call.args.frame = &call.frame;
+    call.args.buffers = call.addresses.data();
+    call.args.params = pass.params.data();
+    call.args.embreeScene = scene_->embreeScene();
+  }
+
+  double run(const PassRun& pass, const rl::FrameData& frame, PassCounters& counters) {
+    Call call;
+    fill(call, pass, frame);
+    const auto start = std::chrono::steady_clock::now();
+    if (pass.isRaster())
+      rasterise(pass, call, counters);
+    else
+      runTiles(find(pass.kernel, pass.mask), call.args, pass.size(frame), counters);
+    const auto end = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(end - start).count();
+  }
+
+  static void add(const rl::CpuKernelCounters& from, PassCounters& to) {
+    to.raysPath += from.raysPath;
+    to.raysShadow += from.raysShadow;
+    for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) to.health[k] += from.health[k];
+  }
+
+  void runTiles(rl::CpuKernelEntry entry, const rl::CpuKernelArgs& args, const glm::uvec2& size,
+                PassCounters& counters) {
     const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
     std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
-    std::atomic<bool> isLeftOut = false;  // true: a tile was skipped
-    auto runTile = [&](size_t i) {
-      if (isStopped()) {
-        isLeftOut = true;
-        return;
-      }
-      const FlushDenormals flush;
+    forEachTile(tileCounters.size(), [&](size_t i) {
       const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
       const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, size.x),
                                    std::min((ty + 1) * kTile, size.y)};
@@ -213,22 +234,79 @@ class CpuBackend final : public Backend {
       rl::CpuKernelCounters local;
       entry(args, tile, local);
       tileCounters[i] = local;
+    });
+    for (const rl::CpuKernelCounters& c : tileCounters) add(c, counters);
+  }
+
+  // Runs both stages of a raster pass: kernels over corners, and over fragments that ask.
+  void rasterise(const PassRun& pass, const Call& call, PassCounters& counters) {
+    rl::RasterParams params;
+    std::memcpy(&params, pass.params.data(), sizeof params);
+    rl::RasterBuffers given;
+    std::memcpy(&given, call.addresses.data(), sizeof given);
+    const rl::CpuKernelEntry vertices = find(pass.vertices.kernel, pass.vertices.mask);
+    const rl::CpuKernelEntry fragments = find(pass.kernel, pass.mask);
+    // Calls a stage with what it exchanges with the rasteriser.
+    const auto with = [&](const rl::RasterBuffers& exchanged, const auto& run) {
+      std::vector<void*> addresses = call.addresses;
+      rl::RasterBuffers buffers = exchanged;
+      buffers.hits = given.hits;
+      buffers.diffuse = given.diffuse;
+      buffers.highlight = given.highlight;
+      buffers.boxes = given.boxes;
+      std::memcpy(addresses.data(), &buffers, sizeof buffers);
+      rl::CpuKernelArgs args = call.args;
+      args.buffers = addresses.data();
+      run(args);
     };
-    const auto start = std::chrono::steady_clock::now();
-    forEachTile(tileCounters.size(), runTile);
-    const auto end = std::chrono::steady_clock::now();
+    std::mutex mutex;  // guards the counters of fragments
+    RasterStages stages;
+    stages.vertices = [&](const rl::RasterBuffers& exchanged, uint32_t corners) {
+      const uint32_t row = rl::RL_ENTRY_ROW;
+      with(exchanged, [&](const rl::CpuKernelArgs& args) {
+        if (corners >= row) runTiles(vertices, args, {row, corners / row}, counters);
+        rl::CpuKernelCounters rest;
+        vertices(args, {0, corners / row, corners % row, corners / row + 1}, rest);
+        add(rest, counters);
+      });
+    };
+    stages.fragments = [&](const rl::RasterBuffers& exchanged, uint32_t count) {
+      rl::CpuKernelCounters local;
+      with(exchanged, [&](const rl::CpuKernelArgs& args) {
+        fragments(args, {0, 0, count, 1}, local);
+      });
+      const std::lock_guard lock(mutex);
+      add(local, counters);
+    };
+    stages.parallel = [&](size_t count, const std::function<void(size_t)>& run) {
+      forEachTile(count, run);
+    };
+    restlab::rasterise({scene_->bvhInput().geometries, scene_->bvhInput().instances},
+                       {{call.frame.width, call.frame.height},
+                        reinterpret_cast<glm::uvec4*>(given.hits.data),
+                        reinterpret_cast<glm::vec4*>(given.diffuse.data),
+                        reinterpret_cast<glm::vec4*>(given.highlight.data)},
+                       params, stages);
+  }
+
+  // Calls `run` for 0 to count - 1 on all threads. Throws FrameStopped if some were left out.
+  template <typename F>
+  void forEachTile(size_t count, const F& run) {
+    std::atomic<bool> isLeftOut = false;
+    forEach(count, [&](size_t i) {
+      if (isStopped()) {
+        isLeftOut = true;
+        return;
+      }
+      const FlushDenormals flush;
+      run(i);
+    });
     if (isLeftOut) throw FrameStopped();
-    for (const rl::CpuKernelCounters& c : tileCounters) {
-      counters.raysPath += c.raysPath;
-      counters.raysShadow += c.raysShadow;
-      for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) counters.health[k] += c.health[k];
-    }
-    return std::chrono::duration<double, std::milli>(end - start).count();
   }
 
 #ifdef RESTLAB_JTHREAD_TILES
   template <typename F>
-  void forEachTile(size_t count, const F& run) {
+  void forEach(size_t count, const F& run) {
     std::atomic<size_t> next{0};
     std::vector<std::jthread> workers;
     for (int t = 0; t < threads_; ++t) {
@@ -239,7 +317,7 @@ class CpuBackend final : public Backend {
   }
 #else
   template <typename F>
-  void forEachTile(size_t count, const F& run) {
+  void forEach(size_t count, const F& run) {
     arena_.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<size_t>(0, count, 1),

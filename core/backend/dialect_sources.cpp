@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/base/error.h"
+
 namespace restlab {
 
 namespace {
@@ -21,6 +23,12 @@ Tables& tables() {
 
 const std::vector<DialectSource>& dialectSources() { return tables().sources; }
 const std::vector<DialectKernel>& dialectKernels() { return tables().kernels; }
+
+const DialectKernel& dialectKernel(const std::string& name) {
+  for (const DialectKernel& known : dialectKernels())
+    if (known.name == name) return known;
+  failUsage("no kernel '" + name + "' in this build");
+}
 
 bool registerDialect(std::vector<DialectSource> sources, std::vector<DialectKernel> kernels) {
   tables() = {std::move(sources), std::move(kernels)};

@@ -21,6 +21,8 @@ struct DialectKernel {
   std::string name, file, header;
 };
 const std::vector<DialectKernel>& dialectKernels();
+// Throws Error (badUsage) if there is no kernel of that name.
+const DialectKernel& dialectKernel(const std::string& name);
 
 // Called by the generated tables alone; always true.
 bool registerDialect(std::vector<DialectSource> sources, std::vector<DialectKernel> kernels);

@@ -81,6 +81,11 @@ bool isBeforeAnnotations(uint32_t op) {
          op == 331;
 }
 
+EShLanguage languageOf(GlslStage stage) {
+  if (stage == GlslStage::vertex) return EShLangVertex;
+  return stage == GlslStage::fragment ? EShLangFragment : EShLangCompute;
+}
+
 }  // namespace
 
 SourceReader readBelow(const std::vector<std::filesystem::path>& roots) {
@@ -119,14 +124,16 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
   return result;
 }
 
-GlslResult compileGlsl(const std::string& text, const std::string& name, const SourceReader& read) {
+GlslResult compileGlsl(const std::string& text, const std::string& name, const SourceReader& read,
+                       GlslStage stage) {
   static const Process process;
-  glslang::TShader shader(EShLangCompute);
+  const EShLanguage language = languageOf(stage);
+  glslang::TShader shader(language);
   const char* strings[] = {text.c_str()};
   const int lengths[] = {static_cast<int>(text.size())};
   const char* names[] = {name.c_str()};
   shader.setStringsWithLengthsAndNames(strings, lengths, names, 1);
-  shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+  shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
   const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
@@ -144,7 +151,7 @@ GlslResult compileGlsl(const std::string& text, const std::string& name, const S
   glslang::SpvOptions options;
   options.validate = false;
   options.disableOptimizer = true;
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &options);
+  glslang::GlslangToSpv(*program.getIntermediate(language), result.spirv, &options);
   result.spirv = decorateNoContraction(result.spirv);
   return result;
 }

@@ -11,12 +11,9 @@ constexpr const char* kText = R"(#version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-{extensions}{reads}#include "core/dialect/order.h"
+{extensions}{defines}#include "core/dialect/order.h"
 #include "{header}"
 
-layout(local_size_x = {tile}, local_size_y = {tile}) in;
 const uint kFeatures = {features}u;
 const uint kKinds = {kinds}u;  // of closures: the low 16 bits; of shapes: the high ones
 
@@ -123,7 +120,7 @@ uvec4 rlReadUvec4(uint64_t ref, uint i) {{ return RL_UVEC4(ref, i); }}
 #define RL_HAS_CLOSURE(kind) ((kKinds & (1u << (kind))) != 0u)
 #define RL_HAS_SHAPES ((kKinds & 0xffff0000u) != 0u)
 #define RL_HAS_SHAPE(kind) ((kKinds & (0x10000u << (kind))) != 0u)
-// Health is rare; rays are counted by each thread and added up once by each subgroup.
+// Health is rare; rays are counted by each thread and added up at its end.
 #define RL_HEALTH(kind) atomicAdd(rlPush.counters.health[kind], 1u)
 uint rlRaysPath = 0u;
 uint rlRaysShadow = 0u;
@@ -132,7 +129,11 @@ uint rlRaysShadow = 0u;
 #include "core/dialect/order.glsl"
 #include "{trace}"
 #include "{file}"
+)";
 
+// Rays are added up once by each subgroup.
+constexpr const char* kCompute = R"(
+layout(local_size_x = {tile}, local_size_y = {tile}) in;
 void main() {{
   uvec2 pixel = gl_GlobalInvocationID.xy;
   bool isInside = pixel.x < rlPush.width && pixel.y < rlPush.height;
@@ -151,16 +152,84 @@ void main() {{
 }}
 )";
 
+// The vertex stage: no corner is shared, so that each has the weights of its triangle.
+constexpr const char* kVertex = R"(
+layout(location = 0) flat out uvec2 rlTriangle;
+layout(location = 1) out vec2 rlBary;
+#ifdef RL_RASTER_LIGHT
+layout(location = 2) out vec3 rlDiffuse;
+layout(location = 3) out vec3 rlHighlight;
+#endif
+void main() {{
+  uint part = uint(gl_VertexIndex) / 3u;
+  RasterCorner corner = rasterCorner(uint(gl_InstanceIndex), part, uint(gl_VertexIndex) % 3u);
+  gl_Position = corner.clip;
+  rlTriangle = uvec2(uint(gl_InstanceIndex), corner.primitive);
+  rlBary = corner.bary;
+#ifdef RL_RASTER_LIGHT
+  rlDiffuse = corner.diffuse;
+  rlHighlight = corner.highlight;
+#endif
+  if (rlRaysPath != 0u) atomicAdd(rlPush.counters.raysPath, rlRaysPath);
+  if (rlRaysShadow != 0u) atomicAdd(rlPush.counters.raysShadow, rlRaysShadow);
+}}
+)";
+
+constexpr const char* kFragment = R"(
+layout(location = 0) flat in uvec2 rlTriangle;
+layout(location = 1) in vec2 rlBary;
+layout(location = 0) out uvec4 rlHitOut;
+#ifdef RL_RASTER_LIGHT
+layout(location = 2) in vec3 rlDiffuse;
+layout(location = 3) in vec3 rlHighlight;
+layout(location = 1) out vec4 rlDiffuseOut;
+layout(location = 2) out vec4 rlHighlightOut;
+#endif
+void main() {{
+  Hit hit = traceNoHit();
+  hit.instance = rlTriangle.x;
+  hit.primitive = rlTriangle.y;
+  hit.bary = rlBary;
+  float depth = gl_FragCoord.z;
+  if (!rasterFragment(uvec2(gl_FragCoord.xy), hit, depth)) discard;
+#ifdef RL_RASTER_DEPTH
+  gl_FragDepth = depth;
+#endif
+  rlHitOut = uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.bary.x),
+                   floatBitsToUint(hit.bary.y));
+#ifdef RL_RASTER_LIGHT
+  rlDiffuseOut = vec4(rlDiffuse, 0.0f);
+  rlHighlightOut = vec4(rlHighlight, 0.0f);
+#endif
+}}
+)";
+
+const char* mainOf(GlslStage stage) {
+  if (stage == GlslStage::vertex) return kVertex;
+  return stage == GlslStage::fragment ? kFragment : kCompute;
+}
+
 }  // namespace
 
 std::string glslKernelSource(const GlslKernel& kernel) {
   const uint32_t features = static_cast<uint32_t>(kernel.features);
   const uint32_t kinds = static_cast<uint32_t>(kernel.features >> rl::RL_FEATURE_CLOSURE_SHIFT);
-  return fmt::format(kText, fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
+  std::string extensions = kernel.extensions, defines;
+  if (kernel.stage == GlslStage::compute)
+    extensions =
+        "#extension GL_KHR_shader_subgroup_basic : require\n"
+        "#extension GL_KHR_shader_subgroup_arithmetic : require\n" +
+        extensions;
+  if (kernel.readsTexels) defines += "#define RL_TEXELS\n";
+  if (kernel.hasLight) defines += "#define RL_RASTER_LIGHT\n";
+  // A stage that sets the depth is tested after it ran.
+  if ((kernel.features & rl::RL_FEATURE_SHAPES) != 0) defines += "#define RL_RASTER_DEPTH\n";
+  return fmt::format(fmt::runtime(std::string(kText) + mainOf(kernel.stage)),
+                     fmt::arg("header", kernel.header), fmt::arg("file", kernel.file),
                      fmt::arg("trace", kernel.traceFile), fmt::arg("tile", kGlslTile),
-                     fmt::arg("copies", kGlslCopies), fmt::arg("extensions", kernel.extensions),
-                     fmt::arg("reads", kernel.readsTexels ? "#define RL_TEXELS\n" : ""),
-                     fmt::arg("features", features), fmt::arg("kinds", kinds));
+                     fmt::arg("copies", kGlslCopies), fmt::arg("extensions", extensions),
+                     fmt::arg("defines", defines), fmt::arg("features", features),
+                     fmt::arg("kinds", kinds));
 }
 
 }  // namespace restlab

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/backend/glsl_stage.h"
 #include "core/dialect/features.h"
 #include "core/dialect/types.h"
 
@@ -18,6 +19,8 @@ struct GlslKernel {
   std::string extensions = {};  // "#extension" lines that the trace file needs
   bool readsTexels = false;     // reads by texels and uniform blocks instead of addresses
   rl::FeatureMask features = rl::RL_FEATURE_ALL;
+  GlslStage stage = GlslStage::compute;
+  bool hasLight = false;  // raster stages: corners have light
 };
 
 // Implementation of traceRay().
@@ -74,7 +77,7 @@ struct GlslPushConstants {
   uint32_t width = 0, height = 0;
 };
 
-// The whole compute shader, with #include lines that the compiler's includer resolves against the
+// The whole shader, with #include lines that the compiler's includer resolves against the
 // repository. The feature mask is two constants: features, and kinds of closures.
 std::string glslKernelSource(const GlslKernel& kernel);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <map>
@@ -18,6 +17,8 @@
 #include "core/backend/vulkan_buffers.h"
 #include "core/backend/vulkan_context.h"
 #include "core/backend/vulkan_parts.h"
+#include "core/backend/vulkan_raster.h"
+#include "core/backend/vulkan_reads.h"
 #include "core/backend/vulkan_recording.h"
 #include "core/backend/vulkan_scene.h"
 #include "core/backend/vulkan_slot.h"
@@ -41,7 +42,8 @@ class VulkanBackend final : public Backend {
       : context_(VulkanContext::of({options.device, options.validate})),
         device_(*context_->device),
         memory_(*context_->memory),
-        buffers_(context_->memory) {
+        buffers_(context_->memory),
+        raster_(context_->device, context_->kernels) {
     const bool hasQuery = device_.info().hasRayQuery;
     const bool hasShapes = (scene->features() & rl::RL_FEATURE_SHAPES) != 0;
     rayTracing_ = options.rayTracing;
@@ -125,7 +127,7 @@ class VulkanBackend final : public Backend {
   }
 
   rl::FeatureMask maskFor(const std::string& kernel, rl::FeatureMask needed) const override {
-    find(kernel);
+    dialectKernel(kernel);
     return needed;  // compiled on demand, with exactly the needed mask
   }
 
@@ -173,6 +175,8 @@ class VulkanBackend final : public Backend {
       const glm::uvec2 size = pass.size(frame);
       key.pipelines.push_back(pipelineOf(pass, ignored));
       key.sizes.push_back({size.x, size.y});
+      key.targets.push_back(VulkanRaster::targetsOf(pass));
+      key.divisions.push_back(VulkanRaster::divisionsOf(pass));
     }
     slot.before = std::move(before);
     writeInputs(slot, passes, frame);
@@ -188,18 +192,12 @@ class VulkanBackend final : public Backend {
     underWay_.push_back(&slot);
   }
 
-  static const DialectKernel& find(const std::string& kernel) {
-    for (const DialectKernel& known : dialectKernels()) {
-      if (known.name == kernel) return known;
-    }
-    failUsage("no kernel '" + kernel + "' in this build");
-  }
-
   VkPipeline pipelineOf(const PassRun& pass, StartupReport& report) {
+    if (pass.isRaster()) return raster_.pipeline(pass, trace_, report);
     const bool texels = readsTexels(pass);
     VkPipeline& known = pipelines_[{pass.kernel, pass.mask, texels}];
     if (known == VK_NULL_HANDLE) {
-      const DialectKernel& files = find(pass.kernel);
+      const DialectKernel& files = dialectKernel(pass.kernel);
       known = context_->kernels->pipeline(
           {files.header, files.file, trace_.file, trace_.extensions, texels}, pass.kernel,
           pass.mask, dialectSource, report);
@@ -210,7 +208,7 @@ class VulkanBackend final : public Backend {
   // Called at the first use of any buffer.
   void placeBuffers() {
     if (buffers_.isPlaced()) return;
-    readsTexels_ = choosesTexels(buffers_.bytes());
+    readsTexels_ = choosesTexels(device_, scene_->arrays(), buffers_.bytes());
     buffers_.place(readsTexels_);
     bindTexels();
   }
@@ -227,34 +225,6 @@ class VulkanBackend final : public Backend {
            part(kPassOffset + kPassParams, kPassBytes - kPassParams), *scene_->arrays(),
            buffers_.together()});
     }
-  }
-
-  // Software drivers read four words through a texel in the time of one word by address, because
-  // reads by address loop over the lanes of a vector. RESTLAB_VULKAN_READS overrides the choice.
-  bool choosesTexels(size_t bytes) const {
-    const size_t texels = device_.properties().limits.maxTexelBufferElements;
-    const GpuBuffer* arrays = scene_->arrays();
-    const bool fits = arrays != nullptr && arrays->bytes / 4 <= texels && bytes / 16 <= texels &&
-                      bytes <= device_.largestAllocation();
-    const bool indexes = device_.info().indexesUniforms;
-    const char* wanted = std::getenv("RESTLAB_VULKAN_READS");
-    if (wanted == nullptr || *wanted == 0) return fits && indexes && device_.info().kind == "cpu";
-    if (std::string(wanted) != "texels" && std::string(wanted) != "addresses") {
-      failUsage(fmt::format("RESTLAB_VULKAN_READS={}: texels or addresses would be right", wanted));
-    }
-    if (std::string(wanted) == "texels" && !indexes) {
-      throw Error(ExitCode::deviceUnavailable,
-                  fmt::format("RESTLAB_VULKAN_READS=texels: {} lacks "
-                              "shaderUniformBufferArrayDynamicIndexing; addresses would be right",
-                              device_.name()));
-    }
-    if (std::string(wanted) == "texels" && !fits) {
-      throw Error(ExitCode::deviceUnavailable,
-                  fmt::format("RESTLAB_VULKAN_READS=texels: {} has views of {} texels, which the "
-                              "scene or the {} MiB of the session exceed; addresses would be right",
-                              device_.name(), texels, bytes >> 20));
-    }
-    return std::string(wanted) == "texels";
   }
 
   // Texels reach only buffers that were placed together; a pass with others reads by address.
@@ -287,6 +257,10 @@ class VulkanBackend final : public Backend {
   Recording record(Slot& slot, const RecordingKey& key) {
     Recording recording;
     for (uint32_t pass = 0; pass < key.pipelines.size(); ++pass) {
+      if (!key.targets[pass].empty()) {
+        recording.bands.push_back({pass, 0, 1});
+        continue;
+      }
       const uint32_t groupsX = key.groups(pass, 0), groupsY = key.groups(pass, 1);
       // Limit the bands to the number of counters.
       const auto most =
@@ -324,15 +298,6 @@ class VulkanBackend final : public Backend {
       const auto count = static_cast<uint32_t>(2 * recording.bands.size());
       vkCmdResetQueryPool(commands, recording.queries, 0, count);
     }
-    // Wait for the other passes, and for clears or copies between frames.
-    VkMemoryBarrier before{};
-    before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-    before.dstAccessMask =
-        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT;
-    vkCmdPipelineBarrier(
-        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
     GlslPushConstants push;
     push.scene = scene_->address();
     push.frame = slot.inputs.address;
@@ -343,6 +308,38 @@ class VulkanBackend final : public Backend {
     push.stateBase = buffers_.together().address;
     push.width = key.sizes[band.pass][0];
     push.height = key.sizes[band.pass][1];
+    if (key.targets[band.pass].empty())
+      recordDispatch(commands, slot, key, recording, index, push);
+    else
+      recordRaster(commands, key, recording, index, push);
+    VkMemoryBarrier after{};
+    after.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    after.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    after.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+    VkPipelineStageFlags writing = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    if (!key.targets[band.pass].empty()) {
+      after.srcAccessMask |= VK_ACCESS_TRANSFER_WRITE_BIT;
+      writing = VulkanRaster::kWritingStages;
+    }
+    vkCmdPipelineBarrier(commands, writing,
+                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &after,
+                         0, nullptr, 0, nullptr);
+    device_.check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    return commands;
+  }
+
+  void recordDispatch(VkCommandBuffer commands, const Slot& slot, const RecordingKey& key,
+                      const Recording& recording, uint32_t index, const GlslPushConstants& push) {
+    const Band& band = recording.bands[index];
+    // Wait for the other passes, and for clears or copies between frames.
+    VkMemoryBarrier before{};
+    before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    before.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    before.dstAccessMask =
+        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+    vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, key.pipelines[band.pass]);
     if (slot.bound.set != VK_NULL_HANDLE) {
       const auto offset = static_cast<uint32_t>(band.pass * kPassBytes);
@@ -356,20 +353,24 @@ class VulkanBackend final : public Backend {
     timestamp(commands, recording, 2 * index);
     vkCmdDispatchBase(commands, 0, band.firstRow, 0, key.groups(band.pass, 0), band.rows, 1);
     timestamp(commands, recording, 2 * index + 1);
-    VkMemoryBarrier after{};
-    after.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    after.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-    after.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &after,
-                         0, nullptr, 0, nullptr);
-    device_.check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-    return commands;
   }
 
-  static void timestamp(VkCommandBuffer commands, const Recording& recording, uint32_t query) {
+  void recordRaster(VkCommandBuffer commands, const RecordingKey& key, const Recording& recording,
+                    uint32_t index, const GlslPushConstants& push) {
+    const uint32_t pass = recording.bands[index].pass;
+    if (VulkanParts::givesBands(device_)) context_->hasTrueTimestamps = false;
+    std::vector<GpuBuffer> targets;
+    for (const BufferId target : key.targets[pass]) targets.push_back(buffers_[target]);
+    timestamp(commands, recording, 2 * index, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
+    raster_.record(commands, key.pipelines[pass], targets, scene_->source(), key.divisions[pass],
+                   push);
+    timestamp(commands, recording, 2 * index + 1, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
+  }
+
+  static void timestamp(VkCommandBuffer commands, const Recording& recording, uint32_t query,
+                        VkPipelineStageFlagBits stage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT) {
     if (recording.queries != VK_NULL_HANDLE)
-      vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, recording.queries, query);
+      vkCmdWriteTimestamp(commands, stage, recording.queries, query);
   }
 
   uint32_t rowsPerBand(VkPipeline pipeline, uint32_t groupsX) {
@@ -418,9 +419,11 @@ class VulkanBackend final : public Backend {
     bool isTooLong = false;
     for (size_t i = 0; i < recording.bands.size(); ++i) {
       const Band& band = recording.bands[i];
-      const double timeMs = recording.queries != VK_NULL_HANDLE
-                                ? device_.timestampMs(stamps[2 * i], stamps[2 * i + 1])
-                                : wallMs / double(recording.bands.size());
+      double timeMs = wallMs / double(recording.bands.size());
+      if (!context_->hasTrueTimestamps)
+        timeMs = slot.parts.timesMs()[i];
+      else if (recording.queries != VK_NULL_HANDLE)
+        timeMs = device_.timestampMs(stamps[2 * i], stamps[2 * i + 1]);
       result.timesMs[earlier + band.pass] += timeMs;
       isTooLong |= shortenBands(slot.runningKey, band, timeMs);
       GlslCounters counters;
@@ -469,6 +472,7 @@ class VulkanBackend final : public Backend {
   SceneRays rays_ = SceneRays::bvh;
   GlslTrace trace_{};
   VulkanBuffers buffers_;
+  VulkanRaster raster_;
   bool readsTexels_ = false;
   std::map<std::tuple<std::string, rl::FeatureMask, bool>, VkPipeline> pipelines_;
   std::map<VkPipeline, uint32_t> bandPixels_;  // pixels per band, if the first took too long

@@ -56,23 +56,46 @@ bool hasExtensions(VkPhysicalDevice device, const char* const* begin, const char
   });
 }
 
-uint32_t computeQueueFamily(VkPhysicalDevice device, uint32_t* timestampBits) {
+// A queue family that computes, and draws if there is one of these.
+uint32_t computeQueueFamily(VkPhysicalDevice device, uint32_t* timestampBits,
+                            bool* draws = nullptr) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
-    if (timestampBits != nullptr) *timestampBits = families[i].timestampValidBits;
-    return i;
+  for (const VkQueueFlags wanted : {VkQueueFlags{VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT},
+                                    VkQueueFlags{VK_QUEUE_COMPUTE_BIT}}) {
+    for (uint32_t i = 0; i < count; ++i) {
+      if ((families[i].queueFlags & wanted) != wanted) continue;
+      if (timestampBits != nullptr) *timestampBits = families[i].timestampValidBits;
+      if (draws != nullptr) *draws = (wanted & VK_QUEUE_GRAPHICS_BIT) != 0;
+      return i;
+    }
   }
   return kNone;
 }
 
+// Lists what raster passes need and the device lacks.
+std::string whatRasterLacks(VkPhysicalDevice device, const VkPhysicalDeviceFeatures& features) {
+  bool draws = false;
+  computeQueueFamily(device, nullptr, &draws);
+  VkFormatProperties depth;
+  vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_D32_SFLOAT, &depth);
+  std::vector<std::string> missing;
+  if (!draws) missing.emplace_back("a queue that draws and computes");
+  if (!features.vertexPipelineStoresAndAtomics)
+    missing.emplace_back("vertexPipelineStoresAndAtomics");
+  if (!features.fragmentStoresAndAtomics) missing.emplace_back("fragmentStoresAndAtomics");
+  if ((depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0)
+    missing.emplace_back("depth of 32 bits");
+  return missing.empty() ? "" : fmt::format("the driver lacks {}", fmt::join(missing, ", "));
+}
+
 uint32_t findMemoryType(const VkPhysicalDeviceMemoryProperties& memory,
-                        VkMemoryPropertyFlags wanted) {
+                        VkMemoryPropertyFlags wanted, uint32_t allowed) {
   for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-    if ((memory.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+    const bool isAllowed = (allowed >> i & 1u) != 0;
+    if (isAllowed && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
   }
   return kNone;
 }
@@ -137,6 +160,7 @@ VulkanDeviceInfo describe(VkPhysicalDevice device) {
   }
   info.hasRayQuery = features.rayQuery.rayQuery && features.acceleration.accelerationStructure;
   info.indexesUniforms = features.core.features.shaderUniformBufferArrayDynamicIndexing == VK_TRUE;
+  info.whyNoRaster = whatRasterLacks(device, features.core.features);
   info.whyNot = whatIsMissing(device, properties.properties, features);
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(device, &memory);
@@ -319,6 +343,9 @@ std::shared_ptr<VulkanDevice> VulkanDevice::open(const VulkanOptions& given) {
   features.core.features.shaderInt64 = VK_TRUE;
   features.core.features.shaderUniformBufferArrayDynamicIndexing =
       device->info_.indexesUniforms ? VK_TRUE : VK_FALSE;
+  const VkBool32 draws = device->info_.whyNoRaster.empty() ? VK_TRUE : VK_FALSE;
+  features.core.features.vertexPipelineStoresAndAtomics = draws;
+  features.core.features.fragmentStoresAndAtomics = draws;
   features.acceleration.accelerationStructure = VK_TRUE;
   features.rayQuery.rayQuery = VK_TRUE;
   const float priority = 1.0f;
@@ -418,8 +445,8 @@ void VulkanDevice::throwValidationMessages() {
       fmt::format("the Vulkan validation layers have {} messages; the first: {}", count, first));
 }
 
-uint32_t VulkanDevice::memoryTypeOf(VkMemoryPropertyFlags wanted) const {
-  return findMemoryType(memory_, wanted);
+uint32_t VulkanDevice::memoryTypeOf(VkMemoryPropertyFlags wanted, uint32_t allowed) const {
+  return findMemoryType(memory_, wanted, allowed);
 }
 
 }  // namespace restlab

@@ -17,6 +17,7 @@ struct VulkanDeviceInfo {
   std::string driver;  // name and version, as the driver reports them
   std::string whyNot;  // missing requirements of this program; empty: the device can be used
   bool hasRayQuery = false;
+  std::string whyNoRaster;       // missing for raster passes; empty: the device can run them
   bool indexesUniforms = false;  // shaderUniformBufferArrayDynamicIndexing
   uint64_t memoryBytes = 0;      // size of the largest device-local heap
 };
@@ -60,7 +61,8 @@ class VulkanDevice {
   // last call.
   void throwValidationMessages();
 
-  uint32_t memoryTypeOf(VkMemoryPropertyFlags wanted) const;  // RL_INVALID: there is none
+  // RL_INVALID: there is none. `allowed`: a bit for each type.
+  uint32_t memoryTypeOf(VkMemoryPropertyFlags wanted, uint32_t allowed = 0xffffffffu) const;
 
  private:
   VulkanDevice() = default;

@@ -132,7 +132,7 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
     return spirv;
   }
   fromDisk = false;
-  GlslResult result = compileGlsl(text, kernel.file, read);
+  GlslResult result = compileGlsl(text, kernel.file, read, kernel.stage);
   if (result.spirv.empty()) {
     throw Error(ExitCode::deviceUnavailable,
                 fmt::format("kernel {} does not compile: {}", name, firstError(result.log)));

@@ -30,6 +30,9 @@ class VulkanKernels {
   VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, rl::FeatureMask mask,
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
+  // SPIR-V of a kernel, with the features it names; throws as pipeline() does.
+  std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
+                                const SourceReader& read, bool& fromDisk);
 
   // Bindings of kernels that read by texels (GlslBinding). Buffers and parameters are bound for the
   // first pass; those of other passes lie at dynamic offsets. Freed by release().
@@ -46,8 +49,6 @@ class VulkanKernels {
   void release(Bound& bound);
 
  private:
-  std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
-                                const SourceReader& read, bool& fromDisk);
   void fill(Bound& bound, const BoundRanges& ranges);
   void prime(VkPipeline pipeline);
   void saveDriverCache();

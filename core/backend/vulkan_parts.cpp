@@ -17,6 +17,8 @@ void VulkanParts::destroy(VulkanDevice& device) {
 void VulkanParts::begin(VulkanDevice& device, const std::vector<VkCommandBuffer>& commands) {
   commands_ = &commands;
   given_ = partsGiven_ = partsDone_ = 0;
+  partBegan_ = std::chrono::steady_clock::now();
+  timesMs_.clear();
   for (size_t part = 0; part < fences_.size(); ++part) giveNext(device);
 }
 
@@ -45,6 +47,9 @@ bool VulkanParts::wait(VulkanDevice& device, const std::function<bool()>& isStop
       isCut = true;
     }
     device.check(result, "a frame");
+    const auto now = std::chrono::steady_clock::now();
+    timesMs_.push_back(std::chrono::duration<double, std::milli>(now - partBegan_).count());
+    partBegan_ = now;
     isCut = isCut || (given_ < commands_->size() && isStopped());
     if (!isCut) giveNext(device);
   }

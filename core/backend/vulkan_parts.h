@@ -4,6 +4,7 @@
 #include <vulkan/vulkan.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -30,6 +31,10 @@ class VulkanParts {
   bool wait(VulkanDevice& device, const std::function<bool()>& isStopped,
             const std::function<void()>& stop);
 
+  // Milliseconds that each part took, once wait() has returned: from the end of the one before, or
+  // from begin(), to the time at which the host saw its end.
+  const std::vector<double>& timesMs() const { return timesMs_; }
+
  private:
   void giveNext(VulkanDevice& device);
 
@@ -37,6 +42,8 @@ class VulkanParts {
   const std::vector<VkCommandBuffer>* commands_ = nullptr;
   size_t given_ = 0;                       // commands that were submitted
   size_t partsGiven_ = 0, partsDone_ = 0;  // each part has a fence
+  std::chrono::steady_clock::time_point partBegan_;
+  std::vector<double> timesMs_;
 };
 
 }  // namespace restlab

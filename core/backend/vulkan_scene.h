@@ -27,6 +27,7 @@ class VulkanScene {
 
   uint64_t address() const { return data_.address; }  // device address of the SceneData
   size_t bytes() const { return bytes_; }
+  const CompiledScene& source() const { return *scene_; }
   const GpuBuffer& data() const { return data_; }  // the SceneData
   // Buffer of all arrays, without acceleration structures; null if there is more than one buffer.
   const GpuBuffer* arrays() const { return buffers_.size() == 1 ? buffers_.data() : nullptr; }

@@ -5,8 +5,14 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {
+
+std::array<glm::vec3, 2> sceneBoxOf(const CompiledScene& scene) {
+  const std::array<glm::dvec3, 2> box = boundsWithoutStrays(scene.source());
+  return {glm::vec3(box[0] - scene.origin()), glm::vec3(box[1] - scene.origin())};
+}
 
 void GraphPass::declare(std::initializer_list<Buffer> buffers, std::vector<Buffer>& as) {
   for (const Buffer buffer : buffers) {
@@ -42,6 +48,11 @@ GraphPass& GraphPass::over(size_t elements) {
 
 GraphPass& GraphPass::replays() {
   isReplay = true;
+  return *this;
+}
+
+GraphPass& GraphPass::rasters(const std::string& vertexStage) {
+  vertexKernel = vertexStage;
   return *this;
 }
 

@@ -39,6 +39,9 @@ struct FrameBuffers {
   History surfaces;  // at pixel centres: core/gbuffer/gbuffer.h
   History features;  // of film samples, for denoisers: core/gbuffer/guide_data.h
   Buffer motion;     // of the features, to the last frame
+  // Rasterised first hits: at pixel centres, and at the frame's film sample; and the boxes that
+  // they were drawn from. Set by the first part that needs them (core/gbuffer/first_hits.h).
+  Buffer centreHits, filmHits, rasterBoxes;
   // Number of frames that the radiance of each pixel averages, this one included: a float.
   Buffer radianceFrames;
   Buffer changes;  // core/temporal_gradients
@@ -66,6 +69,9 @@ struct FrameInfo {
   size_t groups(size_t perGroup) const { return (pixels + perGroup - 1) / perGroup; }
 };
 
+// FrameInfo::sceneBox of a scene.
+std::array<glm::vec3, 2> sceneBoxOf(const CompiledScene& scene);
+
 // A buffer of the graph: `count` elements.
 struct GraphBuffer {
   std::string name;  // unique in the graph
@@ -86,6 +92,7 @@ struct GraphPass {
   std::string name;  // name of its time column
   std::string part;
   std::string kernel;
+  std::string vertexKernel;       // of a raster pass, whose fragment stage is `kernel`; "": none
   std::vector<std::byte> params;  // gParams
   std::vector<Buffer> slots;      // of the kernel's Buffers struct, in its order
   std::vector<Buffer> read, written;
@@ -104,6 +111,8 @@ struct GraphPass {
   // Runs over this many elements, at least one, instead of over pixels (RL_ENTRY_ROW).
   GraphPass& over(size_t elements);
   GraphPass& replays();
+  // Draws the scene's triangles instead, with this vertex stage (core/raster/raster.h).
+  GraphPass& rasters(const std::string& vertexStage);
   // Marks work for the scene, if `isForScene`: its time is told apart from that of frames.
   GraphPass& once(bool isForScene = true);
 

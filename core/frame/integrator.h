@@ -27,7 +27,8 @@ struct IntegratorInfo : PartInfo {
   std::string leavesOut;
   // Same light for one scene; "": the scene has none of it. Empty: `leavesOut`.
   std::function<std::string(const CompiledScene&, const ParameterMap&)> leavesOutOf;
-  bool usesCache = false;  // keeps reservoirs in a cache
+  bool usesCache = false;       // keeps reservoirs in a cache
+  bool readsFirstHits = false;  // asks for first hits itself (core/gbuffer/first_hits.h)
   bool endsPaths = false;  // paths may end in cells of the radiance cache (core/radiance_cache)
   // Bias class if it depends on parameters; empty: the class of the mode.
   std::function<BiasClass(const std::string& mode, const ParameterMap&)> biasOfParameters;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/frame/session.h"
+#include "core/gbuffer/first_hits.h"
 #include "core/radiance_cache/settings.h"
 #include "core/temporal_gradients/settings.h"
 
@@ -114,6 +115,9 @@ Method findMethod(const SessionConfig& config) {
 std::vector<const PartInfo*> Method::parts() const {
   std::vector<const PartInfo*> all;
   if (cache != nullptr) all.push_back(cache);
+  if (integrator->readsFirstHits || integrator->needsSurfaces || denoiser->needsSurfaces ||
+      denoiser->needsFeatures || (cache != nullptr && cache->needsSurfaces))
+    all.push_back(&firstHitsPartInfo());
   if (integrator->endsPaths) all.push_back(&radiancePartInfo());
   if (integrator->followsChanges || denoiser->followsChanges) all.push_back(&changesPartInfo());
   all.push_back(integrator);

@@ -31,12 +31,6 @@ class Copies {
   std::map<std::string, std::vector<uint32_t>> words_;
 };
 
-// FrameInfo::sceneBox.
-std::array<glm::vec3, 2> boxOf(const CompiledScene& scene) {
-  const std::array<glm::dvec3, 2> box = boundsWithoutStrays(scene.source());
-  return {glm::vec3(box[0] - scene.origin()), glm::vec3(box[1] - scene.origin())};
-}
-
 }  // namespace
 
 Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const std::string& mode,
@@ -49,14 +43,13 @@ Pipeline::Pipeline(Backend& backend, std::vector<const PartInfo*> parts, const s
       wanted_(wanted),
       pixels_(pixels),
       scene_(std::move(scene)),
-      sceneBox_(boxOf(*scene_)),
+      sceneBox_(sceneBoxOf(*scene_)),
       graph_(recorded(parameters, pixels)) {
   if (!graph_.shared.radiance)
     failUsage(fmt::format("{}: its frame leaves no radiance (FrameBuffers)", parts_.back()->name));
-  for (const GraphPass& pass : graph_.passes()) {
-    columns_.push_back(columnOf(pass));
-    if (hasFeatures(pass.kernel)) used_ |= maskOf(pass.kernel);
-  }
+  for (const GraphPass& pass : graph_.passes()) columns_.push_back(columnOf(pass));
+  for (const KernelUse& use : kernelsOf(graph_))
+    if (hasFeatures(use.kernel)) used_ |= use.mask;
 }
 
 FrameInfo Pipeline::frameInfo(const ParameterMap& parameters, size_t pixels, bool isNewView,
@@ -115,11 +108,10 @@ bool Pipeline::setParameters(const ParameterMap& parameters, StartupReport& repo
       !std::equal(changed.buffers().begin(), changed.buffers().end(), graph_.buffers().begin(),
                   graph_.buffers().end(), isSame))
     return false;
-  for (const GraphPass& pass : changed.passes()) {
-    const bool needsMore = hasFeatures(pass.kernel) && (maskOf(pass.kernel) & ~used_) != 0;
-    if (needsMore) return false;
-  }
-  if (!backend_.compile(kernelsOf(changed), report)) return false;
+  const std::vector<KernelUse> uses = kernelsOf(changed);
+  for (const KernelUse& use : uses)
+    if (hasFeatures(use.kernel) && (use.mask & ~used_) != 0) return false;
+  if (!backend_.compile(uses, report)) return false;
   parameters_ = parameters;
   ages_ = {};
   columns_.clear();
@@ -287,7 +279,10 @@ rl::FeatureMask Pipeline::maskOf(const std::string& kernel) {
 
 std::vector<KernelUse> Pipeline::kernelsOf(const FrameGraph& graph) {
   std::vector<KernelUse> uses;
-  for (const GraphPass& pass : graph.passes()) uses.push_back({pass.kernel, maskOf(pass.kernel)});
+  for (const GraphPass& pass : graph.passes()) {
+    uses.push_back({pass.kernel, maskOf(pass.kernel)});
+    if (!pass.vertexKernel.empty()) uses.push_back({pass.vertexKernel, maskOf(pass.vertexKernel)});
+  }
   return uses;
 }
 
@@ -295,6 +290,7 @@ PassRun Pipeline::runOf(const GraphPass& pass) {
   PassRun run = {pass.kernel, maskOf(pass.kernel), {}, pass.params, pass.entries};
   for (size_t slot = 0; slot < pass.slots.size(); ++slot)
     run.buffers.push_back(idOf(pass.bound(slot)));
+  if (!pass.vertexKernel.empty()) run.vertices = {pass.vertexKernel, maskOf(pass.vertexKernel)};
   return run;
 }
 

@@ -145,6 +145,7 @@ void Session::Impl::open() {
   f.multiscatter = (needed & rl::RL_FEATURE_MULTISCATTER) != 0 ? 1u : 0u;
   f.lightTree = (needed & rl::RL_FEATURE_LIGHT_TREE) != 0 ? 1u : 0u;
   useParameters();
+  f.sharesFilm = pipeline->graph().shared.filmHits ? 1u : 0u;
   lastFrame = f;
   lastScene = scene;
 }

@@ -10,10 +10,11 @@ RL_NAMESPACE_BEGIN
 
 struct GBufferBuffers {
   Uvec4Ref gbuffer;
+  Uvec4Ref firstHits;  // at pixel centres; read if isRaster
 };
 
 struct GBufferParams {
-  uint padding;
+  uint isRaster;  // 1: the rasteriser has found the surfaces
 };
 
 RL_NAMESPACE_END

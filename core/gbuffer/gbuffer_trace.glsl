@@ -1,15 +1,17 @@
-// Traces the centre of a pixel in the view of a camera.
+// Surfaces at the centres of pixels, in the view of a camera.
 
-// `distanceToCamera`: along the ray, in metres.
-RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
-                                RL_OUT(float) distanceToCamera) {
+RL_FN Ray gbufferRay(RL_IN(Camera) camera, uint pixelIndex) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   vec2 centre =
       vec2(float(pixelIndex % gFrame.width) + 0.5f, float(pixelIndex / gFrame.width) + 0.5f);
-  Ray ray = cameraRay(camera, centre, resolution);
-  Hit hit = traceNoHit();
-  // Key by the pixel: alpha tests are decided alike in every frame.
-  traceRay(ray, RL_RAY_PATH, pixelIndex, hit);
+  return cameraRay(camera, centre, resolution);
+}
+
+// By pixel: alpha tests are decided alike in every frame.
+RL_FN uint gbufferAlphaKey(uint pixelIndex) { return pixelIndex; }
+
+// The surface that a pixel's ray hits.
+RL_FN GBufferTexel gbufferOf(RL_IN(Ray) ray, RL_IN(Hit) hit) {
   GBufferTexel v;
   v.posW = ray.dir;
   v.isHit = 0u;
@@ -28,6 +30,15 @@ RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
     v.nShadeW = packNormal(s.nShadeW);
     v.reflectance = bsdfReflectance(s.bsdf);
   }
-  distanceToCamera = hit.t;
   return v;
+}
+
+// `distanceToCamera`: along the ray, in metres.
+RL_FN GBufferTexel gbufferTrace(RL_IN(Camera) camera, uint pixelIndex,
+                                RL_OUT(float) distanceToCamera) {
+  Ray ray = gbufferRay(camera, pixelIndex);
+  Hit hit = traceNoHit();
+  traceRay(ray, RL_RAY_PATH, gbufferAlphaKey(pixelIndex), hit);
+  distanceToCamera = hit.t;
+  return gbufferOf(ray, hit);
 }

@@ -1,7 +1,8 @@
 // guide: denoiser features at the film sample of this frame, where the frame's paths begin. One ray
-// per pixel. In a still view, guides are means over the view's film samples, as is the shaded
-// radiance.
+// per pixel, or a rasterised hit. In a still view, guides are means over the view's film samples,
+// as is the shaded radiance.
 #include "core/transport/light_edges.glsl"
+#include "core/gbuffer/first_hit.glsl"
 #include "core/gbuffer/guide_data.glsl"
 
 // Most frames in the mean: more would make no difference to a filter.
@@ -37,7 +38,11 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   uint film = cameraFilmBits(pixel);
   Ray ray = cameraFilmRay(gFrame.camera, pixel, film);
   Hit hit = traceNoHit();
-  traceRay(ray, RL_RAY_PATH, cameraAlphaKey(film), hit);
+  if ((gParams.flags & RL_GUIDE_RASTER) != 0u) {
+    hit = firstHitRead(gBuffers.firstHits, pixelIndex);
+  } else {
+    traceRay(ray, RL_RAY_PATH, cameraAlphaKey(film), hit);
+  }
   Guide g;
   g.nW = vec3(0.0f, 0.0f, 0.0f);
   g.disparity = 0.0f;

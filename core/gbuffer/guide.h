@@ -14,6 +14,7 @@ struct GuideBuffers {
   Uvec4Ref guide;
   Uvec4Ref guidePrevious;
   Uvec4Ref motion;
+  Uvec4Ref firstHits;  // at the frame's film sample; read if RL_GUIDE_RASTER
 };
 
 struct GuideParams {

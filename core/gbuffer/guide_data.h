@@ -15,6 +15,7 @@ const uint RL_GUIDE_UVEC4S = 2u;
 // GuideParams::flags: the radiance is divided by these reflectances before it is filtered.
 const uint RL_GUIDE_DIFFUSE = 1u;
 const uint RL_GUIDE_SPECULAR = 2u;  // at normal incidence
+const uint RL_GUIDE_RASTER = 4u;    // the rasteriser has found what the pixels show
 
 struct Guide {
   vec3 nW;           // unit, shading; 0 where the background is seen

@@ -37,10 +37,12 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
 // Film sample of a pixel in a frame: a fraction of the pixel's width in the low half word, of its
 // height in the high one. Each sample is uniform. A pixel's samples follow the R2 sequence over the
 // frames from a random start, so that few frames cover the pixel evenly and any average over frames
-// antialiases edges.
+// antialiases edges. Rasterisers look at one place in all pixels of a frame
+// (FrameData::sharesFilm).
 RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
   // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
   uint pixelIndex = pixel.y * gFrame.width + pixel.x;
+  if (gFrame.sharesFilm != 0u) pixelIndex = 0u;
   uint x = rngFilmStart(pixelIndex, RL_DIM_FILTER_X) + frame * RL_R2_STEP_X;
   uint y = rngFilmStart(pixelIndex, RL_DIM_FILTER_Y) + frame * RL_R2_STEP_Y;
   return (x >> 16u) | (y & 0xffff0000u);

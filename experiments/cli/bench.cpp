@@ -11,6 +11,7 @@
 #include "core/frame/integrator.h"
 #include "core/frame/method_settings.h"
 #include "core/image/metrics/metrics.h"
+#include "experiments/cli/bench_first_hits.h"
 #include "experiments/cli/bench_rays.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
@@ -36,6 +37,7 @@ struct BenchOptions {
   uint64_t referenceSpp = 128;
   double seconds = 1.0;
   bool raysAlone = false;
+  bool firstHits = false;
   bool json = false;
 };
 
@@ -348,6 +350,7 @@ void bench(BenchOptions options) {
     configs.insert(configs.begin(), cpu);
   }
 
+  if (options.firstHits) return benchFirstHits(prepared, config, options.seconds, options.json);
   if (options.raysAlone) return benchLines(prepared, configs, options);
   if ((prepared.scene->features() & rl::RL_FEATURE_SHAPES) != 0)
     failUsage(
@@ -428,6 +431,11 @@ Action addBenchVerb(CLI::App& app) {
                  "rays of the camera and lines across the scene, and nothing else")
       ->excludes("--frames")
       ->excludes("--reference-spp");
+  verb->add_flag("--first-hits", options->firstHits,
+                 "the surfaces that pixels show, by rays and by the rasteriser, at four sizes")
+      ->excludes("--frames")
+      ->excludes("--reference-spp")
+      ->excludes("--rays-alone");
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [options](Outcome&) { bench(*options); };
 }

@@ -121,6 +121,10 @@ Json graphJson(const MeasuredFrames& frames) {
                       {"reads", namesOf(frames.moving, pass.read, frames)},
                       {"writes", namesOf(frames.moving, pass.written, frames)}});
     if (pass.entries == 0) passes.back()["elements"] = "pixels";
+    if (!pass.vertexKernel.empty()) {
+      passes.back()["elements"] = "triangles";
+      passes.back()["vertex_kernel"] = pass.vertexKernel;
+    }
   }
   for (const GraphBuffer& buffer : frames.moving.buffers()) {
     if (!frames.bytesPerPixel.contains(buffer.name)) continue;

@@ -47,3 +47,14 @@ RL_FN LightSample localLightSample(RL_IN(Rng) rng, uint number, RL_IN(LightRecei
   if (localTakesEach()) return localSampleOf(rng, number, receiver);
   return lightSample(rng, receiver);
 }
+
+// Random numbers of a ray: of a light sample, or of occlusion. Beyond the first vertex there is one
+// of each a point, unless each light has one.
+RL_FN Rng localRng(RL_IN(Rng) rng, uint events, uint point, uint ray, bool isOcclusion) {
+  uint place = (events * 3u + point) * 2u + (isOcclusion ? 1u : 0u);
+  uint number = 6u * RL_LOCAL_MOST_RAYS + place;
+  if (events == 0u || localTakesEach()) number = place * RL_LOCAL_MOST_RAYS + ray;
+  Rng own = rng;
+  own.vertex = RL_VERTEX_CANDIDATES + number;
+  return own;
+}

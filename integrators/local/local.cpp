@@ -4,6 +4,7 @@
 
 #include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
+#include "core/gbuffer/first_hits.h"
 #include "integrators/local/local_settings.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
@@ -16,11 +17,25 @@ namespace {
 // Radius of occlusion that follows the scene, over the diagonal of its box.
 constexpr float kOwnRadius = 0.1f;
 
+// The vertex stage has one light for all pixels of a triangle: of a formula, without occlusion.
+bool isVertexLit(const LocalSettings& s) {
+  return s.shading == rl::RL_LOCAL_GOURAUD && s.model != rl::RL_LOCAL_CLOSURE && s.directLight &&
+         s.occlusion == 0 && s.ambientShare == 0.0;
+}
+
 rl::LocalParams localParams(const LocalSettings& s, const FrameInfo& f) {
+  const bool isRaster = rasterisesFirstHits(f.parameters);
+  const bool isLit = isRaster && isVertexLit(s);
+  rl::RasterParams raster = rasterParams(f.sceneBox, false, isLit);
+  raster.divisions = isLit ? s.divisions : 0;
   float radius = float(s.occlusionRadius);
   if (s.hasOwnRadius && radius == 0.0f)
     radius = kOwnRadius * glm::length(f.sceneBox[1] - f.sceneBox[0]);
-  return {.model = s.model,
+  return {.raster = raster,
+          .isRaster = isRaster ? 1u : 0u,
+          .isVertexLit = isLit ? 1u : 0u,
+          .divisions = s.divisions,
+          .model = s.model,
           .shading = s.shading,
           .shadows = s.shadows,
           .occlusion = s.occlusion,
@@ -53,8 +68,15 @@ void recordLocal(FrameGraph& g, const FrameInfo& f) {
   const Buffer lamps = g.buffer("shadow_lamps", hasMaps ? lampWords : 0, 16);
   const Buffer maps = g.buffer("shadow_maps", hasMaps ? texels : 0, sizeof(float));
   const Buffer surfaces = g.buffer("local_surfaces", readsScreen ? f.pixels : 0, 16);
-  const Kernels kernels =
-      g.kernels<rl::LocalBuffers>(localParams(s, f), {radiance, lamps, maps, surfaces});
+  const rl::LocalParams params = localParams(s, f);
+  const bool isLit = params.isVertexLit != 0;
+  const Buffer diffuse = g.buffer("corner_diffuse", isLit ? f.pixels : 0, 16);
+  const Buffer highlight = g.buffer("corner_highlight", isLit ? f.pixels : 0, 16);
+  const Buffer hits = isLit ? g.buffer("corner_hits", f.pixels, 16) : recordFilmHits(g, f);
+  if (!g.shared.filmHits) g.shared.filmHits = hits;
+  const Buffer boxes = g.shared.rasterBoxes;
+  const Kernels kernels = g.kernels<rl::LocalBuffers>(
+      params, {hits, diffuse, highlight, boxes, {}, {}, {}, radiance, lamps, maps, surfaces});
   if (hasMaps && f.lightAge == 0) {
     kernels.pass("shadow_lamps", "local_lamps").updates({lamps}).over(1).once(f.sceneAge == 0);
     kernels.pass("shadow_maps", "local_maps")
@@ -63,12 +85,23 @@ void recordLocal(FrameGraph& g, const FrameInfo& f) {
         .over(texels)
         .once(f.sceneAge == 0);
   }
+  if (isLit) {
+    kernels.pass("local_corners", "raster_fragments")
+        .rasters("local_corners")
+        .reads({boxes, lamps, maps})
+        .writes({hits, diffuse, highlight});
+  }
   if (readsScreen && f.isNewView) {
-    g.kernels<rl::GBufferBuffers>(rl::GBufferParams{}, {surfaces})
+    const Buffer centres = recordCentreHits(g, f);
+    g.kernels<rl::GBufferBuffers>(rl::GBufferParams{.isRaster = centres ? 1u : 0u},
+                                  {surfaces, centres})
         .pass("local_surfaces", "gbuffer")
+        .reads({centres})
         .writes({surfaces});
   }
-  kernels.pass("local", "local").reads({lamps, maps, surfaces}).writes({radiance});
+  kernels.pass("local", "local")
+      .reads({hits, diffuse, highlight, lamps, maps, surfaces})
+      .writes({radiance});
   g.shared.radiance = radiance;
 }
 
@@ -88,6 +121,7 @@ const IntegratorInfo& localIntegratorInfo() {
     i.parameters = localParameters();
     i.reasonUnused = whyLocalUnused;
     i.record = recordLocal;
+    i.readsFirstHits = true;
     return i;
   }();
   return info;

@@ -10,8 +10,9 @@
 // in air. No Russian roulette.
 //
 // Lighting is computed in each pixel, or at the three corners of a triangle and interpolated
-// (Gouraud 1971), or once a triangle. The material is that of the pixel: a texture is modulated by
-// the light of the corners. Normal maps are read at the corners.
+// (Gouraud 1971), or once a triangle; a triangle may be divided for that. The material is that of
+// the pixel: a texture is modulated by the light of the corners. Normal maps are read at the
+// corners.
 //
 // All rays leave from one place of the code: GPU compilers write out each traversal. A `job` is one
 // turn of that loop: the ray of the eye, the surface that it met, and then the rays of each point:
@@ -20,7 +21,9 @@
 #include "integrators/local/lamp_sample.glsl"
 #include "integrators/local/occlusion.glsl"
 #include "integrators/local/shadow_map.glsl"
+#include "integrators/local/reflect.glsl"
 #include "integrators/local/texture_combine.glsl"
+#include "core/gbuffer/first_hit.glsl"
 
 // Light after so many scattering events is asked for.
 RL_FN bool localWants(uint events) {
@@ -28,64 +31,23 @@ RL_FN bool localWants(uint events) {
   return (gFrame.components & component) != 0u;
 }
 
-// Random numbers of a ray: of a light sample, or of occlusion. Beyond the first vertex there is one
-// of each a point, unless each light has one.
-RL_FN Rng localRng(RL_IN(Rng) rng, uint events, uint point, uint ray, bool isOcclusion) {
-  uint place = (events * 3u + point) * 2u + (isOcclusion ? 1u : 0u);
-  uint number = 6u * RL_LOCAL_MOST_RAYS + place;
-  if (events == 0u || localTakesEach()) number = place * RL_LOCAL_MOST_RAYS + ray;
-  Rng own = rng;
-  own.vertex = RL_VERTEX_CANDIDATES + number;
-  return own;
-}
-
-// f |cos_i| of the chosen model.
-RL_FN vec3 localReflect(RL_IN(Surface) s, RL_IN(vec3) dirW) {
-  if (gParams.model == RL_LOCAL_CLOSURE) {
-    float pdf;
-    return bsdfEvalAndPdf(s.bsdf, s.nGeoW, s.nShadeW, s.wo, dirW, pdf);
-  }
-  float cosI = dot(s.nShadeW, dirW);
-  if (!(cosI > 0.0f) || !(dot(s.nGeoW, dirW) > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  // Light that reflections follow is not reflected diffusely as well.
-  vec3 albedo = bsdfAlbedo(s.bsdf);
-  if (gParams.reflections != 0u) albedo = s.bsdf.diffuse;
-  vec3 value = min(albedo, vec3(1.0f, 1.0f, 1.0f)) * cosI;
-  float cosLobe = 0.0f;
-  if (gParams.model == RL_LOCAL_PHONG) cosLobe = dot(s.nShadeW * (2.0f * cosI) - dirW, s.wo);
-  if (gParams.model == RL_LOCAL_BLINN_PHONG) {
-    vec3 h = dirW + s.wo;
-    cosLobe = dot(s.nShadeW, h) * rlSafeDivide(1.0f, sqrt(dot(h, h)));
-  }
-  if (cosLobe > 0.0f) {
-    float lobe = gParams.highlight * pow(min(cosLobe, 1.0f), gParams.highlightPower);
-    value += vec3(lobe, lobe, lobe);
-  }
-  return value * RL_INV_PI;
-}
-
-// The hit that names a point at which a surface is lit: a corner of its triangle, or the middle.
-RL_FN Hit localPointHit(RL_IN(Surface) s, uint point) {
-  Hit hit = traceNoHit();
-  hit.instance = s.id.instance;
-  hit.primitive = s.id.primitive;
-  float third = 1.0f / 3.0f;
-  hit.bary = vec2(point == 1u ? 1.0f : 0.0f, point == 2u ? 1.0f : 0.0f);
-  if (gParams.shading == RL_LOCAL_FLAT) hit.bary = vec2(third, third);
-  return hit;
-}
-
 // Share of a point in the light of the pixel.
 RL_FN float localShare(RL_IN(Surface) s, uint points, uint point) {
   if (points == 1u) return 1.0f;
-  if (point == 0u) return max(1.0f - s.id.bary.x - s.id.bary.y, 0.0f);
-  return point == 1u ? s.id.bary.x : s.id.bary.y;
+  vec3 shares = localPartOf(s).shares;
+  if (point == 0u) return shares.x;
+  return point == 1u ? shares.y : shares.z;
 }
 
 // Shapes are lit in each pixel: they have no corners.
 RL_FN bool localIsPerPixel(RL_IN(Surface) s) {
   if (gParams.shading == RL_LOCAL_PER_PIXEL) return true;
   return RL_HAS_SHAPES && shapeIs(recordGeometry(recordInstance(s.id.instance).geometry));
+}
+
+// Light samples of this surface were taken in the vertex stage.
+RL_FN bool localIsVertexLit(RL_IN(Surface) s, uint events) {
+  return gParams.isVertexLit != 0u && events == 0u && !localIsPerPixel(s);
 }
 
 RL_FN LocalVertex localVertex(RL_IN(Surface) s, uint events) {
@@ -103,6 +65,10 @@ RL_FN LocalVertex localVertex(RL_IN(Surface) s, uint events) {
   // The screen knows of what the eye sees straight alone.
   if (gParams.occlusion == RL_LOCAL_OCCLUSION_SCREEN) isAsked = events == 0u;
   if (isAsked && hasAmbient) v.occlusion = events == 0u ? gParams.occlusionRays : 1u;
+  if (localIsVertexLit(s, events)) {
+    v.points = 1u;
+    v.lights = 0u;
+  }
   return v;
 }
 
@@ -142,10 +108,15 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       if (v.events >= gFrame.maxBounces || bsdfIsBlack(s.bsdf)) break;
       if (v.occlusion == 0u && localWants(v.events + 1u) && rlIsBlack(s.emission))
         radiance += throughput * localAmbient(s);
+      if (localIsVertexLit(s, v.events) && localWants(1u)) {
+        vec4 diffuse = recordVec4(RL_EARLIER_UVEC4(gBuffers.raster.diffuse, pixelIndex));
+        vec4 highlight = recordVec4(RL_EARLIER_UVEC4(gBuffers.raster.highlight, pixelIndex));
+        radiance += localModelAlbedo(s) * vec3(diffuse.x, diffuse.y, diffuse.z);
+        radiance += vec3(highlight.x, highlight.y, highlight.z);
+      }
     } else if (job > 1u && ray == 0u && !localIsPerPixel(s)) {
       bool isParallel = v.events == 0u && gFrame.camera.kind == RL_CAMERA_ORTHOGRAPHIC;
-      vec3 toEye = isParallel ? -eye.dir : eye.origin - at.posW;
-      at.wo = toEye * rlSafeDivide(1.0f, sqrt(dot(toEye, toEye)));
+      at.wo = localToEye(at.posW, eye.origin, eye.dir, isParallel);
       at.bsdf = s.bsdf;
       if (gParams.shading == RL_LOCAL_FLAT) at.nShadeW = at.nGeoW;
     }
@@ -181,23 +152,19 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
       } else {
         LightSample light = localLightSample(own, ray, lightReceiverAt(at));
         LightConnection c = lightConnect(light, at.posW);
-        if (light.pdf > 0.0f && !rlIsBlack(c.emitted)) {
-          float factor = c.geometry / light.pdf;
-          if (!localTakesEach()) factor = factor / float(v.lights);
-          vec3 arrives = c.emitted * factor;
+        vec3 arrives = localArrives(light, c, v.lights);
+        if (!rlIsBlack(arrives)) {
           if (gParams.hasDirect != 0u) unshadowed = localReflect(at, c.dirW) * arrives;
           traced = lightShadowRay(light, c, at.posW, at.nGeoW, at.posError);
           if (rlIsBlack(s.emission)) around += arrives * (gParams.ambientShare * RL_INV_PI);
         }
-        traces = gParams.shadows != 0u && !rlIsBlack(unshadowed);
-        if (traces && gParams.shadows == RL_LOCAL_SHADOW_MAP) {
-          uint lamp = localLampOf(light);
-          if (lamp != RL_INVALID) {
-            passed = localMapPassed(localLampRead(lamp), at.posW, at.nGeoW);
-            traces = passed < 0.0f;
-          }
-        }
+        if (!rlIsBlack(unshadowed)) passed = localMapShadow(light, at);
+        traces = passed < 0.0f;
       }
+    }
+    if (job == 0u && v.events == 0u && gParams.isRaster != 0u) {
+      seen = firstHitRead(gBuffers.raster.hits, pixelIndex);
+      traces = false;
     }
     if (traces) {
       Hit hit = traceNoHit();

@@ -6,6 +6,7 @@
 #include "core/dialect/types.h"
 #endif
 #include "core/geometry/surface.h"
+#include "core/raster/raster.h"
 
 RL_NAMESPACE_BEGIN
 
@@ -50,6 +51,7 @@ const uint RL_LOCAL_MOST_OWN = 16u;
 const uint RL_LOCAL_LAMP_UVEC4S = 3u;
 
 struct LocalBuffers {
+  RasterBuffers raster;
   Vec3Ref radiance;
   Uvec4Ref lamps;     // that have maps
   FloatRef maps;      // squares, row by row
@@ -57,6 +59,10 @@ struct LocalBuffers {
 };
 
 struct LocalParams {
+  RasterParams raster;
+  uint isRaster;     // 1: the rasteriser has found what the eye sees straight
+  uint isVertexLit;  // 1: and the vertex stage has taken its light samples
+  uint divisions;    // triangles are lit as if each were 4^n
   uint model;
   uint shading;
   uint shadows;    // 0: none
@@ -85,6 +91,12 @@ struct LocalVertex {
   uint points;     // 1, or the three corners of a triangle
   uint lights;     // light samples of a point
   uint occlusion;  // rays of occlusion of a point
+};
+
+// A part of a triangle.
+struct LocalPart {
+  vec2 corners[3];  // weights of the triangle's second and third corner
+  vec3 shares;      // of the corners in a point of the part
 };
 
 // A lamp with shadow maps.

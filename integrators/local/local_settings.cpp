@@ -42,6 +42,9 @@ const Schema<LocalSettings>& localSchema() {
       P(&S::shading, "shading", Choices{"phong", "gouraud", "flat"},
         "light is computed in each pixel, at the corners of a triangle, or once a triangle",
         "Phong 1975; Gouraud 1971"),
+      P(&S::divisions, "divisions", Range{0.0, 6.0},
+        "of gouraud and flat: triangles are lit as if each were divided into 4^n",
+        "the scene's own triangles"),
       P(&S::directLight, "direct_light", "false: lamps and the sky give ambient light alone",
         "light samples of the first surface"),
       P(&S::shadows, "shadows", Choices{"none", "rays", "map"},
@@ -107,6 +110,7 @@ LocalSettings localSettings(const ParameterMap& parameters) {
   if (s.preset == kLecture) {
     s.model = rl::RL_LOCAL_PHONG;
     s.shading = rl::RL_LOCAL_PER_PIXEL;
+    s.divisions = 0;
     s.shadows = s.occlusion = s.reflections = 0;
     s.directLight = true;
     s.ambient = kLectureAmbient;
@@ -134,14 +138,16 @@ std::string whyLocalUnused(const std::string& name, const ParameterMap& paramete
   const LocalSettings s = localSettings(parameters);
   const LightingStep step = stepOf(s.preset);
   const std::set<std::string> ofLecture = {
-      "model",   "shading",       "direct_light", "shadows",         "occlusion",
-      "ambient", "ambient_share", "highlight",    "highlight_power", "reflections"};
+      "model",   "shading",       "divisions", "direct_light",    "shadows",    "occlusion",
+      "ambient", "ambient_share", "highlight", "highlight_power", "reflections"};
   const std::string sets = "preset = " + s.preset + " sets it";
   if (s.preset == kLecture && ofLecture.contains(name)) return sets;
   if (step != kNoStep && name == "direct_light") return sets;
   if (step != kNoStep && step < kShadows && name == "shadows") return sets;
   if (step != kNoStep && step < kOcclusion && name == "occlusion") return sets;
   if (step != kNoStep && step < kAll && name == "reflections") return sets;
+  if (name == "divisions" && s.shading == rl::RL_LOCAL_PER_PIXEL)
+    return "light is computed in each pixel";
   const bool hasLobe = s.model == rl::RL_LOCAL_PHONG || s.model == rl::RL_LOCAL_BLINN_PHONG;
   if (name == "highlight" || name == "highlight_power") {
     if (!hasLobe) return "model has no lobe of a power";

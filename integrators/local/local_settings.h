@@ -14,6 +14,7 @@ struct LocalSettings {
   std::string preset = "none";
   uint32_t model = rl::RL_LOCAL_CLOSURE;
   uint32_t shading = rl::RL_LOCAL_PER_PIXEL;
+  uint32_t divisions = 0;
   bool directLight = true;
   uint32_t shadows = rl::RL_LOCAL_SHADOW_RAYS;
   uint32_t occlusion = 0;

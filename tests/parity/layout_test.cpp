@@ -83,7 +83,7 @@ const std::map<std::string, Offsets>& expected() {
         FIELD(FrameData, components), FIELD(FrameData, rouletteStart),
         FIELD(FrameData, multiscatter), FIELD(FrameData, stillFrames),
         FIELD(FrameData, radianceFrames), FIELD(FrameData, cameraAbsorbs),
-        FIELD(FrameData, lightTree), FIELD(FrameData, padding), FIELD(FrameData, drawnLights)}},
+        FIELD(FrameData, lightTree), FIELD(FrameData, sharesFilm), FIELD(FrameData, drawnLights)}},
       {"SceneData",
        {FIELD(SceneData, positions),
         FIELD(SceneData, normals),

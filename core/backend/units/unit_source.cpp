@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 
 #include "core/backend/embree.h"
-#include "core/base/error.h"
 
 namespace restlab {
 
@@ -14,16 +13,10 @@ namespace {
 constexpr const char* kBody = "core/backend/cpu_kernel.inl";
 constexpr const char* kTrace = "core/backend/cpu_trace.inl";
 
-const DialectKernel& filesOf(const std::string& kernel) {
-  for (const DialectKernel& known : dialectKernels())
-    if (known.name == kernel) return known;
-  failUsage("no kernel '" + kernel + "' in this build");
-}
-
 }  // namespace
 
 std::string unitText(const KernelUnit& unit, const std::string& compilerVersion) {
-  const DialectKernel& files = filesOf(unit.kernel);
+  const DialectKernel& files = dialectKernel(unit.kernel);
   return fmt::format(R"(#define RL_KERNEL_NAME {name}
 #define RL_KERNEL_MASKS(M) M(unit, {mask}ull)
 #define RL_KERNEL_HEADER "{header}"
@@ -45,7 +38,7 @@ extern "C" const rl::CpuKernelEntry {entry} = rl::kernel_{name}_unit;
 }
 
 std::vector<DialectSource> unitSources(const KernelUnit& unit) {
-  const DialectKernel& files = filesOf(unit.kernel);
+  const DialectKernel& files = dialectKernel(unit.kernel);
   return includedSources({kBody, kTrace, files.header, files.file});
 }
 

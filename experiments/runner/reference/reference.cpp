@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "core/base/error.h"
+#include "core/frame/method_settings.h"
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/log.h"
@@ -35,7 +36,8 @@ std::string exactly(const SceneCamera& camera) {
 }  // namespace
 
 const std::string& referenceSources(const std::string& integrator) {
-  return integrator == "bdpt" ? buildInfo().bdptHash : buildInfo().referenceHash;
+  if (integrator == "path") return buildInfo().referenceHash;
+  return integrator == "bdpt" ? buildInfo().bdptHash : buildInfo().sourceHash;
 }
 
 bool targetReached(const ReferenceTarget& target, uint64_t spp, double relmseSinceHalf,
@@ -77,6 +79,12 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
 ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture) {
   ReferenceConfig config = referenceConfigOf(picture);
   config.integrator = suite.referenceIntegrator;
+  for (const SuiteMethod& method : suite.rendered()) {
+    if (suite.referenceMethod.empty() || method.name != suite.referenceMethod) continue;
+    config.integrator = method.session.integrator;
+    config.mode = method.session.mode;
+    config.parameters = method.session.parameters;
+  }
   return config;
 }
 
@@ -87,6 +95,9 @@ std::string referenceKey(const PreparedScene& prepared, const ReferenceConfig& c
       camera ? exactly(*camera) : std::to_string(prepared.camera), config.width, config.height,
       componentName(config.components), referenceSources(config.integrator));
   if (config.integrator != "path") text += " by " + config.integrator;
+  if (!config.mode.empty()) text += " mode " + config.mode;
+  for (const auto& [name, value] : config.parameters)
+    text += fmt::format(" {} {}", name, parameterText(value));
   for (const auto& [name, value] : transportTexts(config, true)) text += " " + name + " " + value;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return hexHash(hash.high64) + hexHash(hash.low64);

@@ -17,7 +17,9 @@ namespace restlab {
 
 // Inputs of a reference besides the scene.
 struct ReferenceConfig : TransportSettings {
-  std::string integrator = "path";  // one of referenceIntegrators()
+  std::string integrator = "path";  // one of referenceIntegrators(), or that of a suite's method
+  std::string mode = {};            // ""; the first one
+  ParameterMap parameters = {};     // of a suite's method: resolved
   uint32_t width = 0, height = 0;
   // Replaces the scene's camera, e.g. by one on a camera path.
   std::optional<SceneCamera> camera;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/frame/method.h"
 #include "experiments/runner/suite/backend_choice.h"
 
 namespace restlab {
@@ -37,7 +38,8 @@ void addName(std::vector<std::string>& names, const std::string& name) {
 SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceConfig& config) {
   SessionConfig session;
   session.integrator = config.integrator;
-  session.mode = findIntegrator(config.integrator).modes.front().name;
+  session.mode = findMode(findIntegrator(config.integrator), config.mode);
+  session.parameters = config.parameters;
   session.width = config.width;
   session.height = config.height;
   session.camera = prepared.camera;

@@ -157,7 +157,8 @@ struct BlockExecutor::Impl {
       const Session& session = *sessions.back();
       MethodResult method;
       method.featuresLeftOut = featureNames(rl::RL_FEATURE_ALL & ~session.featuresUsed());
-      method.lightLeftOut = session.lightLeftOut();
+      // A reference by a method has its light alone: rows answer for their bias.
+      if (suite.referenceMethod.empty()) method.lightLeftOut = session.lightLeftOut();
       method.bytesPerPixel = session.bytesPerPixel();
       method.codeBytes = session.codeBytes();
       method.use = deviceUseOf(session);

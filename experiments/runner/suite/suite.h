@@ -122,6 +122,8 @@ struct Suite : TransportSettings {
   std::string devicePlace, rayTracingPlace;  // for errors
   std::string referenceBackend = "cpu", referenceBackendPlace;
   std::string referenceIntegrator = "path";  // one of referenceIntegrators()
+  // Method whose converged image is the reference instead; "": none.
+  std::string referenceMethod, referenceMethodPlace;
   int threads = 0;
   ReferenceTarget target;
 

@@ -6,6 +6,7 @@
 
 #include "core/backend/backend.h"
 #include "core/base/error.h"
+#include "core/frame/method.h"
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/suite/backend_choice.h"
 #include "experiments/runner/suite/image_settings.h"
@@ -227,11 +228,35 @@ const std::vector<std::string>& settingsKeys() {
   return keys;
 }
 
+namespace {
+
+// Rejects methods whose frames have no mean of their own: they depend on one another.
+void requireReferenceMethod(const ConfigTable& table, const Suite& suite) {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : suite.rendered()) {
+    names.push_back(method.name);
+    if (method.name != suite.referenceMethod) continue;
+    const SessionConfig& session = method.session;
+    if (findMethod(session).hasHistory(session.parameters))
+      table.fail("method", fmt::format("'{}': its frames depend on earlier ones; a method without "
+                                       "history would have a mean of its own",
+                                       method.name));
+    return;
+  }
+  table.fail("method", fmt::format("'{}': the suite has no such method{}", suite.referenceMethod,
+                                   didYouMean(suite.referenceMethod, names)));
+}
+
+}  // namespace
+
 void readReference(const ConfigTable& table, Suite& suite) {
   suite.referenceBackend = table.getChoice("backend", suite.referenceBackend, backendNames());
   suite.referenceBackendPlace = table.place("backend");
   suite.referenceIntegrator =
       table.getChoice("integrator", suite.referenceIntegrator, referenceIntegrators());
+  suite.referenceMethod = table.getString("method", "");
+  suite.referenceMethodPlace = table.place("method");
+  if (!suite.referenceMethod.empty()) requireReferenceMethod(table, suite);
   ReferenceTarget& target = suite.target;
   target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
   target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
