@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
@@ -24,6 +25,7 @@ using SharedScene = std::shared_ptr<const CompiledScene>;
 // Pixels whose centre lies so far from an edge show the same surface, whatever the rasteriser
 // rounds: devices place corners on a grid of 1/256 pixel.
 constexpr double kEdgePixels = 1.0 / 64.0;
+constexpr double kSharedPixels = 1e-4;
 
 BackendOptions optionsOf(const std::string& backend, int threads = 0) {
   BackendOptions options;
@@ -84,40 +86,51 @@ double pixelsToEdge(const CompiledScene& scene, const SceneCamera& of, const glm
   return nearest;
 }
 
-struct RasterAgreement {
-  HitAgreement hits;
-  size_t atEdges = 0;      // other primitives, and the centre lies at an edge of one of them
+// How many pixels differ.
+struct RasterDifference {
+  size_t pixels = 0;
+  size_t shared = 0;   // the centre lies on the edge of two triangles of one mesh: both are right
+  size_t atEdges = 0;  // near an edge of one of the triangles
   size_t unexplained = 0;  // all other differences: surfaces in one place
+  double share() const { return double(atEdges + unexplained) / double(pixels); }
 };
 
-RasterAgreement compare(const SharedScene& scene, const std::string& backend,
-                        const SceneCamera& camera, const glm::uvec2& size) {
+RasterDifference compare(const SharedScene& scene, const std::string& backend,
+                         const SceneCamera& camera, const glm::uvec2& size) {
   const BothHits both = bothHits(scene, backend, camera, size);
-  RasterAgreement sum;
-  sum.hits = agreementOf(both.rays, both.raster);
+  RasterDifference sum;
+  sum.pixels = both.rays.size();
   for (size_t i = 0; i < both.rays.size(); ++i) {
     const glm::uvec4 &a = both.rays[i], &b = both.raster[i];
     const bool isNone = a.x == rl::RL_INVALID && b.x == rl::RL_INVALID;
     if (isNone || (a.x == b.x && a.y == b.y)) continue;
-    double pixels = 1e300;
-    for (const glm::uvec4& hit : {a, b})
-      if (hit.x != rl::RL_INVALID)
-        pixels = std::min(pixels, pixelsToEdge(*scene, camera, size, i, hit));
-    ++(pixels < kEdgePixels ? sum.atEdges : sum.unexplained);
+    double least = 1e300, most = 0.0;
+    for (const glm::uvec4& hit : {a, b}) {
+      if (hit.x == rl::RL_INVALID) continue;
+      const double pixels = pixelsToEdge(*scene, camera, size, i, hit);
+      least = std::min(least, pixels);
+      most = std::max(most, pixels);
+    }
+    if (a.x == b.x && most < kSharedPixels)
+      ++sum.shared;
+    else
+      ++(least < kEdgePixels ? sum.atEdges : sum.unexplained);
   }
   return sum;
 }
 
 // 99.9 % of the pixels show the primitive that the centre's ray meets; the others lie on edges.
-void expectAgreement(const SharedScene& scene, const std::string& name, const std::string& backend,
-                     double most = 1e-3, const glm::uvec2& size = {192, 108}) {
-  const SceneCamera& camera = scene->source().cameras.front();
-  const RasterAgreement a = compare(scene, backend, camera, size);
-  std::printf("  %s, %s: %zu of %zu pixels differ, %zu at edges, %zu not\n", name.c_str(),
-              backend.c_str(), a.hits.pixels - a.hits.samePrimitive, a.hits.pixels, a.atEdges,
-              a.unexplained);
-  EXPECT_LE(1.0 - a.hits.share(), most) << name << " on " << backend;
-  EXPECT_LE(double(a.unexplained), most * 0.5 * double(a.hits.pixels)) << name << " on " << backend;
+void expectAgreement(const std::string& name, const std::string& backend) {
+  const SharedScene scene = sceneNamed(name);
+  // Devices round corners by a part of a pixel: triangles of a few pixels show it. Rays of shapes
+  // take long.
+  const bool isLarge = backend == "vulkan" && (scene->features() & rl::RL_FEATURE_SHAPES) == 0;
+  const glm::uvec2 size = isLarge ? glm::uvec2(640, 360) : glm::uvec2(192, 108);
+  const RasterDifference a = compare(scene, backend, scene->source().cameras.front(), size);
+  std::printf("  %s, %s: of %zu pixels %zu differ at edges, %zu elsewhere; %zu on shared edges\n",
+              name.c_str(), backend.c_str(), a.pixels, a.atEdges, a.unexplained, a.shared);
+  EXPECT_LE(a.share(), 1e-3) << name << " on " << backend;
+  EXPECT_EQ(a.unexplained, 0u) << name << " on " << backend;
 }
 
 std::vector<std::string> backends() {
@@ -126,23 +139,29 @@ std::vector<std::string> backends() {
   return all;
 }
 
-TEST(Raster, ShowsWhatRaysShow) {
-  for (const std::string& name : builtinSceneNames()) {
-    const SharedScene scene = sceneNamed(name);
-    for (const std::string& backend : backends()) expectAgreement(scene, name, backend);
-  }
+class RasterOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(RasterOf, ShowsWhatRaysShow) {
+  for (const std::string& backend : backends()) expectAgreement(GetParam(), backend);
 }
 
-// Small triangles, alpha, instances, all kinds of shapes from inside, a film without a centre.
-TEST(Raster, ShowsWhatRaysShowInOddScenes) {
-  for (const char* name :
-       {"everything", "materials", "shapes-file", "nurbs-file", "shape-furnace?kind=torus",
-        "shape-furnace?kind=curves_coil", "shape-furnace?kind=sdf_dumbbell", "floor?view=89.9",
-        "floor?needle=1000"}) {
-    const SharedScene scene = sceneNamed(name);
-    for (const std::string& backend : backends()) expectAgreement(scene, name, backend);
-  }
+std::string testNameOf(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+  return name;
 }
+
+INSTANTIATE_TEST_SUITE_P(Builtin, RasterOf, testing::ValuesIn(builtinSceneNames()), testNameOf);
+// Instances, alpha, closures, all kinds of shapes from inside, a view along the floor.
+INSTANTIATE_TEST_SUITE_P(Odd, RasterOf,
+                         testing::Values("everything", "materials", "shapes-file", "nurbs-file",
+                                         "shape-furnace?kind=curves_coil",
+                                         "shape-furnace?kind=sdf_dumbbell", "floor?view=89.9"),
+                         testNameOf);
+
+// Needles of 16 m by 1.6 cm.
+TEST(Raster, NeedlesAreThoseOfRays) { expectAgreement("floor?needle=1000", "cpu"); }
 
 TEST(Raster, AlphaIsDecidedAsForRays) {
   const SharedScene scene = unit::veils();
@@ -268,9 +287,12 @@ TEST(RasterMethods, GouraudOfTheVertexStageIsThatOfPixels) {
     if (std::string(where.backend) == "vulkan" && !hasVulkan()) continue;
     for (const char* model : {"lambert", "phong", "blinn_phong"}) {
       for (const char* shadows : {"rays", "map"}) {
+        // One of both with triangles in parts.
+        const int64_t divisions = shadows == std::string("map") ? 2 : 0;
         SessionConfig config = configOf({"local", "", ""}, where, 64, 48, 5);
         config.parameters = {{"shading", std::string("gouraud")},
                              {"model", std::string(model)},
+                             {"divisions", divisions},
                              {"shadows", std::string(shadows)},
                              {"shadow_map_size", int64_t{64}},
                              {"light_samples", int64_t{0}}};

@@ -287,6 +287,11 @@ TEST(ReferenceKey, TellsIntegratorsApart) {
   other.integrator = "bdpt";
   EXPECT_NE(referenceKey(scene, other), referenceKey(scene, smallConfig()));
   EXPECT_NE(referenceSources("bdpt"), referenceSources("path"));
+  ReferenceConfig lit = other, darker = other;
+  lit.integrator = darker.integrator = "local";
+  lit.parameters = {{"ambient", 0.5}};
+  darker.parameters = {{"ambient", 0.25}};
+  EXPECT_NE(referenceKey(scene, lit), referenceKey(scene, darker));
 }
 
 TEST(ReferenceByBdpt, IsOneOfTheSameImage) {

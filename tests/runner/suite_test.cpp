@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "experiments/runner/reference/reference.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {
@@ -58,6 +59,29 @@ TEST_F(SuiteTest, OneBackendLeavesNamesAlone) {
   EXPECT_EQ(load("", kMethods, {"reference.backend=vulkan"}).referenceBackend, "vulkan");
   EXPECT_EQ(suite.referenceIntegrator, "path");
   EXPECT_EQ(load("", kMethods, {"reference.integrator=bdpt"}).referenceIntegrator, "bdpt");
+}
+
+// A method whose frames have no mean of their own cannot be the reference.
+TEST_F(SuiteTest, AMethodMayBeTheReference) {
+  const std::string methods =
+      std::string(kMethods) + "[[method]]\nname = \"lit\"\nintegrator = \"local\"\nambient = 0.5\n";
+  const Suite suite = load("", methods, {"reference.method=lit"});
+  const ReferenceConfig config = referenceOfSuite(suite, suite.methods[1].session);
+  EXPECT_EQ(config.integrator, "local");
+  EXPECT_EQ(std::get<double>(config.parameters.at("ambient")), 0.5);
+  EXPECT_EQ(referenceOfSuite(load("", methods), suite.methods[1].session).integrator, "path");
+  const auto messageOf = [&](const char* method) {
+    try {
+      load("", methods, {std::string("reference.method=") + method});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(messageOf("gi").find("'gi': its frames depend on earlier ones"), std::string::npos)
+      << messageOf("gi");
+  EXPECT_NE(messageOf("lid").find("no such method"), std::string::npos) << messageOf("lid");
+  EXPECT_NE(messageOf("lid").find("'lit'"), std::string::npos) << messageOf("lid");
 }
 
 TEST_F(SuiteTest, AMethodsOwnBackendWins) {

@@ -149,7 +149,7 @@ const std::vector<OwnParameter>& ownParameters() {
        {"ior", std::nullopt, 1.0001, 3.0,
         "a slab of smooth glass of this index instead; goes with 'view' alone"}},
       {"floor", {"slope", 0.0, 0.0, 89.0, "of its normal map, to the side, degrees"}},
-      {"floor", {"triangles", 2.0, 0.0, 5e6, "of the floor, about so many; 0: the sky alone"}},
+      {"floor", {"triangles", 2.0, 0.0, 1e7, "of the floor, about so many; 0: the sky alone"}},
       {"floor", {"needle", 1.0, 1.0, 1e6, "length of its triangles over their width"}},
       {"floor", {"copies", 1.0, 1.0, 8.0, "of the floor, all in one plane"}},
       {"floor", {"sun", 1.0, 1.0, 1e9, "radiance of one pixel of the sky over the others"}},
