@@ -184,7 +184,7 @@ class CpuBackend final : public Backend {
     return unit != nullptr ? unit : builtIn.entry;
   }
 
-  // What every kernel of a pass is called with.
+  // Arguments of every kernel of a pass.
   struct Call {
     rl::FrameData frame;
     std::vector<void*> addresses;
@@ -265,6 +265,7 @@ class CpuBackend final : public Backend {
       const uint32_t row = rl::RL_ENTRY_ROW;
       with(exchanged, [&](const rl::CpuKernelArgs& args) {
         if (corners >= row) runTiles(vertices, args, {row, corners / row}, counters);
+        const FlushDenormals flush;
         rl::CpuKernelCounters rest;
         vertices(args, {0, corners / row, corners % row, corners / row + 1}, rest);
         add(rest, counters);

@@ -152,6 +152,15 @@ void main() {{
 }}
 )";
 
+// Loops that lavapipe has ended, as in kCompute.
+constexpr const char* kCutLoops = R"(
+void rlTellCutLoops() {{
+  uint turns = 0u;
+  while (turns < 1u + min(rlPush.width, 1u)) ++turns;
+  if (turns < 2u) RL_HEALTH(RL_HEALTH_LOOPS_CUT);
+}}
+)";
+
 // The vertex stage: no corner is shared, so that each has the weights of its triangle.
 constexpr const char* kVertex = R"(
 layout(location = 0) flat out uvec2 rlTriangle;
@@ -161,6 +170,8 @@ layout(location = 2) out vec3 rlDiffuse;
 layout(location = 3) out vec3 rlHighlight;
 #endif
 void main() {{
+  gl_Position = vec4(0.0f);
+  if (rlPush.counters.stop != 0u) return;
   uint part = uint(gl_VertexIndex) / 3u;
   RasterCorner corner = rasterCorner(uint(gl_InstanceIndex), part, uint(gl_VertexIndex) % 3u);
   gl_Position = corner.clip;
@@ -172,6 +183,7 @@ void main() {{
 #endif
   if (rlRaysPath != 0u) atomicAdd(rlPush.counters.raysPath, rlRaysPath);
   if (rlRaysShadow != 0u) atomicAdd(rlPush.counters.raysShadow, rlRaysShadow);
+  rlTellCutLoops();
 }}
 )";
 
@@ -191,6 +203,7 @@ void main() {{
   hit.primitive = rlTriangle.y;
   hit.bary = rlBary;
   float depth = gl_FragCoord.z;
+  if (rlPush.counters.stop != 0u) discard;
   if (!rasterFragment(uvec2(gl_FragCoord.xy), hit, depth)) discard;
 #ifdef RL_RASTER_DEPTH
   gl_FragDepth = depth;
@@ -201,12 +214,13 @@ void main() {{
   rlDiffuseOut = vec4(rlDiffuse, 0.0f);
   rlHighlightOut = vec4(rlHighlight, 0.0f);
 #endif
+  rlTellCutLoops();
 }}
 )";
 
-const char* mainOf(GlslStage stage) {
-  if (stage == GlslStage::vertex) return kVertex;
-  return stage == GlslStage::fragment ? kFragment : kCompute;
+std::string mainOf(GlslStage stage) {
+  if (stage == GlslStage::compute) return kCompute;
+  return std::string(kCutLoops) + (stage == GlslStage::vertex ? kVertex : kFragment);
 }
 
 }  // namespace

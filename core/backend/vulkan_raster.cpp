@@ -137,6 +137,8 @@ void VulkanRaster::addImage(Film& film, const glm::uvec2& size, VkFormat format,
   memory.allocationSize = needs.size;
   memory.memoryTypeIndex =
       device_->memoryTypeOf(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, needs.memoryTypeBits);
+  if (memory.memoryTypeIndex == rl::RL_INVALID)
+    device_->check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "images of a raster pass");
   device_->check(vkAllocateMemory(device, &memory, nullptr, &film.memory.emplace_back()),
                  "images of a raster pass");
   device_->check(vkBindImageMemory(device, film.images.back(), film.memory.back(), 0),
@@ -212,9 +214,10 @@ uint32_t VulkanRaster::divisionsOf(const PassRun& pass) {
 VkPipeline VulkanRaster::pipeline(const PassRun& pass, const GlslTrace& trace,
                                   StartupReport& report) {
   open();
-  VkPipeline& known = pipelines_[{pass.vertices.kernel, pass.vertices.mask, pass.mask, trace.file}];
-  if (known != VK_NULL_HANDLE) return known;
   const size_t targets = targetsOf(pass).size();
+  VkPipeline& known = pipelines_[{pass.vertices.kernel + " " + pass.kernel, pass.vertices.mask,
+                                  pass.mask, trace.file, targets}];
+  if (known != VK_NULL_HANDLE) return known;
   KernelReport ofVertices, ofFragments;
   const VkShaderModule vertices =
       moduleOf(pass.vertices, trace, GlslStage::vertex, targets > 1, ofVertices);

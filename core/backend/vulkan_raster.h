@@ -41,7 +41,7 @@ class VulkanRaster {
               const CompiledScene& scene, uint32_t divisions, const GlslPushConstants& push);
 
  private:
-  // What pipelines of one number of targets draw into.
+  // Images that pipelines of one number of targets draw into.
   struct Film {
     VkRenderPass pass = VK_NULL_HANDLE;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
@@ -63,8 +63,9 @@ class VulkanRaster {
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::map<size_t, VkRenderPass> passes_;                         // by targets
   std::map<std::tuple<uint32_t, uint32_t, size_t>, Film> films_;  // by size and targets
-  // By vertex stage, masks of both stages, and file of the rays.
-  std::map<std::tuple<std::string, rl::FeatureMask, rl::FeatureMask, std::string>, VkPipeline>
+  // By stages, masks of both, file of the rays, and number of targets.
+  std::map<std::tuple<std::string, rl::FeatureMask, rl::FeatureMask, std::string, size_t>,
+           VkPipeline>
       pipelines_;
 };
 

@@ -29,9 +29,9 @@ struct Recording {
 struct RecordingKey {
   std::vector<VkPipeline> pipelines;
   std::vector<std::array<uint32_t, 2>> sizes;  // size of each pass
-  // Of each pass the buffers that a raster pass draws into; none: it is no raster pass.
+  // Buffers that a raster pass draws into, by pass; none: it is no raster pass.
   std::vector<std::vector<uint32_t>> targets;
-  std::vector<uint32_t> divisions;  // of each pass: RasterParams::divisions, or 0
+  std::vector<uint32_t> divisions;  // by pass: RasterParams::divisions, or 0
   auto operator<=>(const RecordingKey&) const = default;
 
   uint32_t groups(size_t pass, int axis) const {

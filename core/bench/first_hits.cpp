@@ -35,7 +35,7 @@ FirstHits::FirstHits(std::shared_ptr<const CompiledScene> scene, const std::stri
   raster_.vertices = {"first_hits_corners",
                       backend_->maskFor("first_hits_corners", scene_->features())};
   raster_.buffers = {hits, kNoBuffer, kNoBuffer, boxBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
-  raster_.params = bytesOf(rasterParams(sceneBoxOf(*scene_), isAtCentre, false));
+  raster_.params = bytesOf(rasterParams(*scene_, isAtCentre, false));
   rays_ = raster_;
   rays_.kernel = "ray_hits";
   rays_.mask = backend_->maskFor(rays_.kernel, scene_->features());

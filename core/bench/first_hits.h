@@ -31,7 +31,7 @@ class FirstHits {
   // Finds the hits and returns the time of the pass in milliseconds.
   double byRays() { return run(rays_); }
   double byRaster() { return run(raster_); }
-  // Of the last run, as RasterBuffers::hits.
+  // The hits of the last run, as RasterBuffers::hits.
   std::vector<glm::uvec4> hits() const;
   std::string device() const { return backend_->device(); }
 

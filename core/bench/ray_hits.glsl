@@ -12,7 +12,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
   vec2 resolution = vec2(float(gFrame.width), float(gFrame.height));
   Hit hit = traceNoHit();
   traceRay(cameraRay(gFrame.camera, place, resolution), RL_RAY_PATH, key, hit);
-  RL_WRITE_UVEC4(gBuffers.raster.hits, pixelIndex,
-                 uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.bary.x),
-                       floatBitsToUint(hit.bary.y)));
+  RL_WRITE_UVEC4(
+      gBuffers.raster.hits, pixelIndex,
+      uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.bary.x), floatBitsToUint(hit.bary.y)));
 }

@@ -348,7 +348,7 @@ struct FrameData {
   uint cameraAbsorbs;    // RL_CAMERA_ABSORBS_*
   uint lightTree;        // 1: lamps are chosen by the hierarchy, 0: by the alias table
   uint sharesFilm;       // 1: all pixels of a frame have one film sample
-  UintRef drawnLights;  // a word a light: 1 once a light sample was drawn from it; or null
+  UintRef drawnLights;   // a word a light: 1 once a light sample was drawn from it; or null
 };
 RL_STATIC_ASSERT_SIZE(FrameData, 240);
 

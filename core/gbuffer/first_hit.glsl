@@ -1,4 +1,4 @@
-// What a raster pass found in a pixel (core/raster/raster.h).
+// First hits that a raster pass found (core/raster/raster.h).
 
 // Without the distance (hit.t).
 RL_FN Hit firstHitRead(RL_IN(Uvec4Ref) hits, uint pixelIndex) {

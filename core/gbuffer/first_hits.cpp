@@ -11,10 +11,15 @@ namespace restlab {
 
 namespace {
 
+struct SceneExtent {
+  float size;   // diagonal of the box without strays, metres
+  float reach;  // RasterParams::reach
+};
+
 Buffer recordHits(FrameGraph& g, const FrameInfo& f, const char* name, bool isAtCentre) {
   const Buffer hits = g.buffer(name, f.pixels, 16);
   const Buffer boxes = g.shared.rasterBoxes;
-  const rl::RasterPassParams params{rasterParams(f.sceneBox, isAtCentre, false)};
+  const rl::RasterPassParams params{rasterParams(*f.scene, isAtCentre, false)};
   g.kernels<rl::RasterPassBuffers>(params, {hits, {}, {}, boxes, {}, {}, {}})
       .pass(name, "raster_fragments")
       .rasters("first_hits_corners")
@@ -57,12 +62,20 @@ bool rasterisesFirstHits(const ParameterMap& parameters) {
   return found != parameters.end() && std::get<std::string>(found->second) == "raster";
 }
 
-rl::RasterParams rasterParams(const std::array<glm::vec3, 2>& sceneBox, bool isAtCentre,
-                              bool hasLight) {
-  const float size = std::max(glm::length(sceneBox[1] - sceneBox[0]), 1e-20f);
+rl::RasterParams rasterParams(const CompiledScene& scene, bool isAtCentre, bool hasLight) {
+  const auto measure = [&]() -> CompiledScene::Derived {
+    const std::array<glm::vec3, 2> box = sceneBoxOf(scene);
+    double reach = 0.0;
+    for (const glm::dvec3& corner : worldBounds(scene.source()))
+      reach = std::max(reach, glm::length(glm::abs(corner - scene.origin())));
+    return std::make_shared<const SceneExtent>(
+        SceneExtent{std::max(glm::length(box[1] - box[0]), 1e-20f), float(2.0 * reach)});
+  };
+  const auto extent =
+      std::static_pointer_cast<const SceneExtent>(scene.derived("raster extent", measure));
   return {.isAtCentre = isAtCentre ? 1u : 0u,
-          .nearest = rl::RL_RASTER_NEAREST * size,
-          .sceneSize = size,
+          .nearest = rl::RL_RASTER_NEAREST * extent->size,
+          .reach = extent->reach,
           .hasLight = hasLight ? 1u : 0u,
           .divisions = 0};
 }

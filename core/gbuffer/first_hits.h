@@ -1,4 +1,4 @@
-// Who finds the surfaces that the eye sees straight: rays, or the rasteriser
+// First hits: the surfaces that the eye sees straight are found by rays, or by the rasteriser
 // (core/raster/raster.h).
 #pragma once
 
@@ -19,9 +19,8 @@ bool rasterisesFirstHits(const ParameterMap& parameters);
 Buffer recordCentreHits(FrameGraph& g, const FrameInfo& f);
 Buffer recordFilmHits(FrameGraph& g, const FrameInfo& f);
 
-// For raster passes of others. sceneBox: FrameInfo::sceneBox.
-rl::RasterParams rasterParams(const std::array<glm::vec3, 2>& sceneBox, bool isAtCentre,
-                              bool hasLight);
+// For raster passes of others.
+rl::RasterParams rasterParams(const CompiledScene& scene, bool isAtCentre, bool hasLight);
 // RasterBuffers::boxes; empty if the scene has no shapes.
 std::shared_ptr<const std::vector<uint32_t>> rasterBoxWords(const CompiledScene& scene);
 

@@ -70,7 +70,7 @@ RL_FN void kernelMain(RL_IN(uvec2) pixel) {
     if ((gParams.flags & RL_GUIDE_DIFFUSE) != 0u) reflectance += s.bsdf.diffuse;
     if (RL_HAS(RL_FEATURE_GLOSSY) && (gParams.flags & RL_GUIDE_SPECULAR) != 0u)
       reflectance += s.bsdf.f0;
-    if (!isSeen && gParams.flags != 0u)
+    if (!isSeen && (gParams.flags & (RL_GUIDE_DIFFUSE | RL_GUIDE_SPECULAR)) != 0u)
       g.reflectance = clamp(reflectance, vec3(RL_GUIDE_FLOOR, RL_GUIDE_FLOOR, RL_GUIDE_FLOOR),
                             vec3(1.0f, 1.0f, 1.0f));
     motion.disparity =

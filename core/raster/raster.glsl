@@ -13,7 +13,7 @@ RL_FN vec2 rasterFilmPoint(RL_IN(uvec2) pixel) {
 RL_FN float rasterDepth(float along) {
   if (!rasterIsParallel()) return gParams.raster.nearest / along;
   vec3 camera = gFrame.camera.posW;
-  return 1.0f - along / (length(camera) + 4.0f * gParams.raster.sceneSize);
+  return 1.0f - along / ((length(camera) + gParams.raster.reach) * 1.01f);
 }
 
 // Projects a point. The film moves by the frame's film sample, the same in all pixels: samplers of

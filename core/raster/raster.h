@@ -20,7 +20,7 @@ struct RasterBuffers {
   Vec4Ref diffuse;    // light of the corners, interpolated; or null
   Vec4Ref highlight;  // likewise
   Uvec4Ref boxes;     // world box of each instance of a shape: two uvec4s, low and high corner
-  // What the two kernels exchange with the rasteriser on the CPU; null on Vulkan.
+  // Exchanged by the two kernels and the rasteriser on the CPU; null on Vulkan.
   UintRef triangles;  // instance and primitive
   // Three a triangle: clip position. With light two vec4s more: diffuse, highlight, and behind them
   // the weights of the second and third corner of the scene's triangle.
@@ -32,7 +32,7 @@ struct RasterBuffers {
 struct RasterParams {
   uint isAtCentre;  // 1: pixels are looked at in their centre, 0: at the frame's film sample
   float nearest;    // metres from a perspective camera, below which surfaces are cut off
-  float sceneSize;  // metres
+  float reach;      // metres from the origin, within which all surfaces lie
   uint hasLight;    // 1: corners have light
   uint divisions;   // each triangle is drawn as 4^n, and each of them is lit at its own corners
 };

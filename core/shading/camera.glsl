@@ -38,14 +38,19 @@ RL_FN bool cameraProject(RL_IN(Camera) camera, RL_IN(vec3) posW, RL_IN(vec2) res
 // height in the high one. Each sample is uniform. A pixel's samples follow the R2 sequence over the
 // frames from a random start, so that few frames cover the pixel evenly and any average over frames
 // antialiases edges. Rasterisers look at one place in all pixels of a frame
-// (FrameData::sharesFilm).
-RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
-  // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
-  uint pixelIndex = pixel.y * gFrame.width + pixel.x;
-  if (gFrame.sharesFilm != 0u) pixelIndex = 0u;
+// (FrameData::sharesFilm): the sample of the first pixel, but for low bits, which decide alpha
+// tests of each pixel for itself and move its point by less than 2^-12 of its width.
+RL_FN uint cameraFilmOfStart(uint pixelIndex, uint frame) {
   uint x = rngFilmStart(pixelIndex, RL_DIM_FILTER_X) + frame * RL_R2_STEP_X;
   uint y = rngFilmStart(pixelIndex, RL_DIM_FILTER_Y) + frame * RL_R2_STEP_Y;
   return (x >> 16u) | (y & 0xffff0000u);
+}
+RL_FN uint cameraFilmBitsOfFrame(RL_IN(uvec2) pixel, uint frame) {
+  // The start does not depend on the frame, nor on the numbers that the path draws in frame 0.
+  uint film = cameraFilmOfStart(pixel.y * gFrame.width + pixel.x, frame);
+  if (gFrame.sharesFilm != 0u)
+    film = (cameraFilmOfStart(0u, frame) & 0xfff0fff0u) | (film & 0x000f000fu);
+  return film;
 }
 RL_FN uint cameraFilmBits(RL_IN(uvec2) pixel) { return cameraFilmBitsOfFrame(pixel, gFrame.frame); }
 

@@ -215,6 +215,9 @@ void sayWhatIsLeftOut(const Suite& suite) {
 void forEachQuestion(const Suite& whole, const BiasOptions& options,
                      const std::function<void(const Question&)>& take,
                      const std::function<void()>& sceneIsDone) {
+  if (!whole.referenceMethod.empty())
+    failUsage(fmt::format("{}: its reference is the method '{}'; bias judges by path or bdpt",
+                          whole.file, whole.referenceMethod));
   sayWhatIsLeftOut(whole);
   bool isAny = false;
   for (const SuiteScene& scene : whole.scenes) {

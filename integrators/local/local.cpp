@@ -2,9 +2,13 @@
 // a parameter.
 #include "integrators/local/local.h"
 
+#include <fmt/format.h>
+
+#include "core/base/error.h"
 #include "core/frame/frame_graph.h"
 #include "core/frame/integrator.h"
 #include "core/gbuffer/first_hits.h"
+#include "core/scene/compiled/compiled_scene.h"
 #include "integrators/local/local_settings.h"
 #undef RL_KERNEL_BUFFERS
 #undef RL_KERNEL_PARAMS
@@ -16,6 +20,8 @@ namespace {
 
 // Radius of occlusion that follows the scene, over the diagonal of its box.
 constexpr float kOwnRadius = 0.1f;
+// Triangles that a raster pass draws, with three corners each.
+constexpr uint64_t kMostParts = uint64_t{1} << 29;
 
 // The vertex stage has one light for all pixels of a triangle: of a formula, without occlusion.
 bool isVertexLit(const LocalSettings& s) {
@@ -23,11 +29,23 @@ bool isVertexLit(const LocalSettings& s) {
          s.occlusion == 0 && s.ambientShare == 0.0;
 }
 
+// Rejects parts that a draw cannot count.
+uint32_t checkedDivisions(const LocalSettings& s, const CompiledScene& scene) {
+  const uint64_t parts = uint64_t{scene.instancedTriangleCount()} << (2 * s.divisions);
+  if (parts > kMostParts)
+    failUsage(
+        fmt::format("divisions = {}: {} triangles would become {}, more than {}; a smaller "
+                    "number would be right",
+                    s.divisions, scene.instancedTriangleCount(), parts, kMostParts));
+  return s.divisions;
+}
+
 rl::LocalParams localParams(const LocalSettings& s, const FrameInfo& f) {
   const bool isRaster = rasterisesFirstHits(f.parameters);
   const bool isLit = isRaster && isVertexLit(s);
-  rl::RasterParams raster = rasterParams(f.sceneBox, false, isLit);
-  raster.divisions = isLit ? s.divisions : 0;
+  rl::RasterParams raster{};
+  if (isRaster) raster = rasterParams(*f.scene, false, isLit);
+  if (isLit) raster.divisions = checkedDivisions(s, *f.scene);
   float radius = float(s.occlusionRadius);
   if (s.hasOwnRadius && radius == 0.0f)
     radius = kOwnRadius * glm::length(f.sceneBox[1] - f.sceneBox[0]);

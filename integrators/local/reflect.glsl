@@ -1,4 +1,4 @@
-// What a surface reflects by the chosen model, and what arrives from a light sample.
+// Reflection by the chosen model, and light that arrives from a light sample.
 
 // f |cos_i| pi of the models that are formulas, over the albedo (diffuse) and on top of it.
 RL_FN void localModelParts(RL_IN(Surface) s, RL_IN(vec3) dirW, RL_OUT(float) diffuse,
@@ -84,8 +84,8 @@ RL_FN vec3 localToEye(RL_IN(vec3) posW, RL_IN(vec3) eyeW, RL_IN(vec3) dirW, bool
   return toEye * rlSafeDivide(1.0f, sqrt(dot(toEye, toEye)));
 }
 
-// What arrives at a point from a light sample if nothing is in the way; `lights`: light samples of
-// the point.
+// Light that arrives at a point from a light sample if nothing is in the way. `lights`: light
+// samples of the point.
 RL_FN vec3 localArrives(RL_IN(LightSample) light, RL_IN(LightConnection) c, uint lights) {
   if (!(light.pdf > 0.0f) || rlIsBlack(c.emitted)) return vec3(0.0f, 0.0f, 0.0f);
   float factor = c.geometry / light.pdf;

@@ -131,6 +131,7 @@ void expectAgreement(const std::string& name, const std::string& backend) {
               name.c_str(), backend.c_str(), a.pixels, a.atEdges, a.unexplained, a.shared);
   EXPECT_LE(a.share(), 1e-3) << name << " on " << backend;
   EXPECT_EQ(a.unexplained, 0u) << name << " on " << backend;
+  EXPECT_LE(double(a.shared), 0.01 * double(a.pixels)) << name << " on " << backend;
 }
 
 std::vector<std::string> backends() {

@@ -69,6 +69,10 @@ TEST_F(SuiteTest, AMethodMayBeTheReference) {
   const ReferenceConfig config = referenceOfSuite(suite, suite.methods[1].session);
   EXPECT_EQ(config.integrator, "local");
   EXPECT_EQ(std::get<double>(config.parameters.at("ambient")), 0.5);
+  // Rows on several backends have other names.
+  const Suite both = load("backend = [\"cpu\", \"vulkan\"]\n", methods, {"reference.method=lit"});
+  EXPECT_EQ(referenceOfSuite(both, both.methods[1].session).integrator, "local");
+  EXPECT_THROW(load("", methods, {"reference.method=lit", "reference.integrator=bdpt"}), Error);
   EXPECT_EQ(referenceOfSuite(load("", methods), suite.methods[1].session).integrator, "path");
   const auto messageOf = [&](const char* method) {
     try {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "core/base/error.h"
+#include "core/frame/method.h"
 #include "core/frame/method_settings.h"
 #include "core/image/metrics/metrics.h"
 #include "experiments/runner/base/build_info.h"
@@ -79,12 +80,11 @@ ReferenceConfig referenceConfigOf(const SessionConfig& session) {
 ReferenceConfig referenceOfSuite(const Suite& suite, const SessionConfig& picture) {
   ReferenceConfig config = referenceConfigOf(picture);
   config.integrator = suite.referenceIntegrator;
-  for (const SuiteMethod& method : suite.rendered()) {
-    if (suite.referenceMethod.empty() || method.name != suite.referenceMethod) continue;
-    config.integrator = method.session.integrator;
-    config.mode = method.session.mode;
-    config.parameters = method.session.parameters;
-  }
+  if (suite.referenceMethod.empty()) return config;
+  const SuiteMethod& method = *suite.referenceRow();
+  config.integrator = method.session.integrator;
+  config.mode = method.session.mode;
+  config.parameters = resolveParameters(findMethod(method.session), method.parameters());
   return config;
 }
 

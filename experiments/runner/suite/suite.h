@@ -123,13 +123,15 @@ struct Suite : TransportSettings {
   std::string referenceBackend = "cpu", referenceBackendPlace;
   std::string referenceIntegrator = "path";  // one of referenceIntegrators()
   // Method whose converged image is the reference instead; "": none.
-  std::string referenceMethod, referenceMethodPlace;
+  std::string referenceMethod;
   int threads = 0;
   ReferenceTarget target;
 
   // Over its scenes.
   uint32_t maxRuns() const;
   uint32_t minRuns() const;
+  // Returns the first row of referenceMethod; null if there is none.
+  const SuiteMethod* referenceRow() const;
   // Returns the methods without rows of images.
   std::span<const SuiteMethod> rendered() const;
   // Returns the index of the method that ratios of `method` are relative to: the baseline, else the

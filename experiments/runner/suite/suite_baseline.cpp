@@ -72,6 +72,12 @@ size_t Suite::baselineOf(size_t method) const {
   });
 }
 
+const SuiteMethod* Suite::referenceRow() const {
+  for (const SuiteMethod& method : rendered())
+    if (method.name == referenceMethod || method.base == referenceMethod) return &method;
+  return nullptr;
+}
+
 size_t Suite::average(size_t method) const { return firstPath(method, "accumulate"); }
 
 size_t Suite::firstPath(size_t method, const std::string& denoiser) const {

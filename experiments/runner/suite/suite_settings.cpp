@@ -230,21 +230,24 @@ const std::vector<std::string>& settingsKeys() {
 
 namespace {
 
-// Rejects methods whose frames have no mean of their own: they depend on one another.
+// Rejects methods whose frames have no mean of their own: they depend on one another, or on a
+// filter.
 void requireReferenceMethod(const ConfigTable& table, const Suite& suite) {
-  std::vector<std::string> names;
-  for (const SuiteMethod& method : suite.rendered()) {
-    names.push_back(method.name);
-    if (method.name != suite.referenceMethod) continue;
-    const SessionConfig& session = method.session;
-    if (findMethod(session).hasHistory(session.parameters))
-      table.fail("method", fmt::format("'{}': its frames depend on earlier ones; a method without "
-                                       "history would have a mean of its own",
-                                       method.name));
-    return;
+  const SuiteMethod* method = suite.referenceRow();
+  if (method == nullptr) {
+    std::vector<std::string> names;
+    for (const SuiteMethod& other : suite.rendered()) names.push_back(other.name);
+    table.fail("method", fmt::format("'{}': the suite has no such method{}", suite.referenceMethod,
+                                     didYouMean(suite.referenceMethod, names)));
   }
-  table.fail("method", fmt::format("'{}': the suite has no such method{}", suite.referenceMethod,
-                                   didYouMean(suite.referenceMethod, names)));
+  if (method->session.denoiser != "none")
+    table.fail("method", fmt::format("'{}': has a denoiser; a method without one would be right",
+                                     method->name));
+  const Method parts = findMethod(method->session);
+  if (parts.hasHistory(resolveParameters(parts, method->parameters())))
+    table.fail("method", fmt::format("'{}': its frames depend on earlier ones; a method without "
+                                     "history would have a mean of its own",
+                                     method->name));
 }
 
 }  // namespace
@@ -255,8 +258,12 @@ void readReference(const ConfigTable& table, Suite& suite) {
   suite.referenceIntegrator =
       table.getChoice("integrator", suite.referenceIntegrator, referenceIntegrators());
   suite.referenceMethod = table.getString("method", "");
-  suite.referenceMethodPlace = table.place("method");
-  if (!suite.referenceMethod.empty()) requireReferenceMethod(table, suite);
+  if (!suite.referenceMethod.empty()) {
+    if (!table.getString("integrator", "").empty())
+      table.fail("method",
+                 "'integrator' and 'method' both say who renders the reference; give one");
+    requireReferenceMethod(table, suite);
+  }
   ReferenceTarget& target = suite.target;
   target.spp = uint64_t(table.getInteger("spp", 0, 2, int64_t(1) << 32));
   target.relmse = table.getNumber("target_relmse", 0.0, 1e-12, 1e6);
