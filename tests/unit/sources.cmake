@@ -64,7 +64,7 @@ list(APPEND RL_UNIT_TESTS
   field_grid_test.cpp
   distance_grid_test.cpp
   form_factor_test.cpp
-)
+  cpu_raster_test.cpp)
 
 # They set macros for the kernels that they include.
 set(alone ${RL_UNIT_TESTS})
