@@ -144,6 +144,23 @@ std::vector<uint32_t> VulkanKernels::spirvOf(const GlslKernel& kernel, const std
   return result.spirv;
 }
 
+VkShaderModule VulkanKernels::module(const GlslKernel& kernel, const std::string& name,
+                                     const SourceReader& read, KernelReport& report) {
+  const auto start = std::chrono::steady_clock::now();
+  report.kernel = name;
+  report.mask = kernel.features;
+  const std::vector<uint32_t> spirv = spirvOf(kernel, name, read, report.fromDisk);
+  report.compileMs = msSince(start);
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = spirv.size() * sizeof(uint32_t);
+  info.pCode = spirv.data();
+  VkShaderModule shader = VK_NULL_HANDLE;
+  device_->check(vkCreateShaderModule(device_->handle(), &info, nullptr, &shader),
+                 "vkCreateShaderModule");
+  return shader;
+}
+
 VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& name,
                                    rl::FeatureMask mask, const SourceReader& read,
                                    StartupReport& report) {
@@ -151,22 +168,11 @@ VkPipeline VulkanKernels::pipeline(const GlslKernel& kernel, const std::string& 
   VkPipeline& known =
       pipelines_[{kernel.header + " " + kernel.file + " " + kernel.traceFile + reads, mask}];
   if (known != VK_NULL_HANDLE) return known;
-  const auto start = std::chrono::steady_clock::now();
   KernelReport done;
-  done.kernel = name;
-  done.mask = mask;
   GlslKernel ofMask = kernel;
   ofMask.features = mask;
-  const std::vector<uint32_t> spirv = spirvOf(ofMask, name, read, done.fromDisk);
-  done.compileMs = msSince(start);
+  VkShaderModule shader = module(ofMask, name, read, done);
   const auto driverStart = std::chrono::steady_clock::now();
-  VkShaderModuleCreateInfo moduleInfo{};
-  moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  moduleInfo.codeSize = spirv.size() * sizeof(uint32_t);
-  moduleInfo.pCode = spirv.data();
-  VkShaderModule shader = VK_NULL_HANDLE;
-  device_->check(vkCreateShaderModule(device_->handle(), &moduleInfo, nullptr, &shader),
-                 "vkCreateShaderModule");
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;

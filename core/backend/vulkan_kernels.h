@@ -30,9 +30,10 @@ class VulkanKernels {
   VkPipeline pipeline(const GlslKernel& kernel, const std::string& name, rl::FeatureMask mask,
                       const SourceReader& read, StartupReport& report);
   VkPipelineLayout layout() const { return layout_; }
-  // SPIR-V of a kernel, with the features it names; throws as pipeline() does.
-  std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
-                                const SourceReader& read, bool& fromDisk);
+  // The shader of a kernel, with the features it names; the caller destroys it. Throws as
+  // pipeline() does. Records how long it took.
+  VkShaderModule module(const GlslKernel& kernel, const std::string& name, const SourceReader& read,
+                        KernelReport& report);
 
   // Bindings of kernels that read by texels (GlslBinding). Buffers and parameters are bound for the
   // first pass; those of other passes lie at dynamic offsets. Freed by release().
@@ -49,6 +50,8 @@ class VulkanKernels {
   void release(Bound& bound);
 
  private:
+  std::vector<uint32_t> spirvOf(const GlslKernel& kernel, const std::string& name,
+                                const SourceReader& read, bool& fromDisk);
   void fill(Bound& bound, const BoundRanges& ranges);
   void prime(VkPipeline pipeline);
   void saveDriverCache();

@@ -179,23 +179,10 @@ const VulkanRaster::Film& VulkanRaster::filmOf(const glm::uvec2& size, size_t ta
 
 VkShaderModule VulkanRaster::moduleOf(const KernelUse& use, const GlslTrace& trace, GlslStage stage,
                                       bool hasLight, KernelReport& report) {
-  const auto start = std::chrono::steady_clock::now();
-  report.kernel = use.kernel;
-  report.mask = use.mask;
   const DialectKernel& files = dialectKernel(use.kernel);
   const GlslKernel kernel = {files.header, files.file, trace.file, trace.extensions,
                              false,        use.mask,   stage,      hasLight};
-  const std::vector<uint32_t> spirv =
-      kernels_->spirvOf(kernel, use.kernel, dialectSource, report.fromDisk);
-  report.compileMs = msSinceStart(start);
-  VkShaderModuleCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  info.codeSize = spirv.size() * sizeof(uint32_t);
-  info.pCode = spirv.data();
-  VkShaderModule shader = VK_NULL_HANDLE;
-  device_->check(vkCreateShaderModule(device_->handle(), &info, nullptr, &shader),
-                 "vkCreateShaderModule");
-  return shader;
+  return kernels_->module(kernel, use.kernel, dialectSource, report);
 }
 
 std::vector<BufferId> VulkanRaster::targetsOf(const PassRun& pass) {
