@@ -270,9 +270,9 @@ FrameDifference againstRays(const std::string& scene, const Machine& where, Sess
 }
 
 TEST(RasterMethods, LocalIsThatOfRays) {
-  for (const Machine& where : {kCpuEmbree, kVulkan}) {
+  for (const Machine& where : {kCpuEmbree, kVulkanSpecialised}) {
     if (std::string(where.backend) == "vulkan" && !hasVulkan()) continue;
-    for (const char* scene : {"glossy-gallery", "shapes", "materials"}) {
+    for (const char* scene : {"glossy-gallery", "shapes"}) {
       SessionConfig config = configOf({"local", "", ""}, where, 64, 48, 5);
       config.parameters = {{"preset", std::string("reflections")},
                            {"occlusion", std::string("screen")}};
@@ -284,7 +284,7 @@ TEST(RasterMethods, LocalIsThatOfRays) {
 
 // Corners are lit once in the vertex stage, or in every pixel that needs them.
 TEST(RasterMethods, GouraudOfTheVertexStageIsThatOfPixels) {
-  for (const Machine& where : {kCpuEmbree, kVulkan}) {
+  for (const Machine& where : {kCpuEmbree, kVulkanSpecialised}) {
     if (std::string(where.backend) == "vulkan" && !hasVulkan()) continue;
     for (const char* model : {"lambert", "phong", "blinn_phong"}) {
       for (const char* shadows : {"rays", "map"}) {
@@ -306,7 +306,7 @@ TEST(RasterMethods, GouraudOfTheVertexStageIsThatOfPixels) {
 
 TEST(RasterMethods, ReuseAndDenoisersTakeThem) {
   const Combination gi{"restir_gi", "unbiased", "pixel"}, filtered{"path", "", "", "svgf"};
-  for (const Machine& where : {kCpuEmbree, kVulkan}) {
+  for (const Machine& where : {kCpuEmbree, kVulkanSpecialised}) {
     if (std::string(where.backend) == "vulkan" && !hasVulkan()) continue;
     SessionConfig whole = configOf(filtered, where, 64, 48, 5);
     whole.parameters["demodulate"] = std::string("none");
