@@ -272,7 +272,7 @@ FrameDifference againstRays(const std::string& scene, const Machine& where, Sess
 TEST(RasterMethods, LocalIsThatOfRays) {
   for (const Machine& where : {kCpuEmbree, kVulkanSpecialised}) {
     if (std::string(where.backend) == "vulkan" && !hasVulkan()) continue;
-    for (const char* scene : {"glossy-gallery", "shapes"}) {
+    for (const char* scene : {"glossy-gallery", "course"}) {
       SessionConfig config = configOf({"local", "", ""}, where, 64, 48, 5);
       config.parameters = {{"preset", std::string("reflections")},
                            {"occlusion", std::string("screen")}};
