@@ -219,8 +219,13 @@ void Pipeline::allocate() {
   for (size_t i = 0; i < graph_.buffers().size(); ++i) {
     const size_t bytes = ownBytes(graph_, i);
     ids_.push_back(bytes > 0 ? backend_.allocate(bytes) : kNoBuffer);
+  }
+  // A backend places buffers at the first use of one of them: those that come later would lie
+  // apart.
+  for (size_t i = 0; i < ids_.size(); ++i) {
     const auto& contents = graph_.buffers()[i].contents;
-    if (contents && bytes > 0) backend_.write(ids_.back(), contents->data(), bytes);
+    if (contents && ids_[i] != kNoBuffer)
+      backend_.write(ids_[i], contents->data(), ownBytes(graph_, i));
   }
 }
 

@@ -320,6 +320,18 @@ TEST(RasterMethods, ReuseAndDenoisersTakeThem) {
   }
 }
 
+// The boxes of shapes are a table of the host. Written before all buffers were there, it parted
+// them, and a software driver compiled kernels that read by address, for minutes.
+TEST(RasterMethods, TablesLeaveBuffersTogether) {
+  if (!hasVulkan()) GTEST_SKIP() << kNoDevice;
+  SessionConfig config = configOf({"local", "", ""}, kVulkanSpecialised, 16, 16, 5);
+  const auto readsTexels = [&](const char* firstHit) {
+    config.parameters["first_hit"] = std::string(firstHit);
+    return Session(sceneNamed("shape-furnace"), config).startup().readsTexels;
+  };
+  EXPECT_EQ(readsTexels("raster"), readsTexels("rays"));
+}
+
 // All pixels of a frame share the film sample, and frames cover the pixel.
 TEST(RasterMethods, FramesCoverThePixel) {
   SessionConfig config = configOf({"local", "", ""}, kCpuEmbree, 32, 32, 5);
