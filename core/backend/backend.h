@@ -2,6 +2,8 @@
 // them.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -139,16 +141,29 @@ class Backend {
   // alone.
   void stopWhere(std::function<bool()> isWanted) { isStopWanted_ = std::move(isWanted); }
 
+  // Done fraction of the work of the frame under way: of its tiles or commands, which need not take
+  // the same time. Callable from any thread.
+  double frameFraction() const {
+    const size_t whole = workWhole_;
+    return whole > 0 ? std::min(1.0, double(workDone_) / double(whole)) : 0.0;
+  }
+
   virtual std::string rayTracing() const = 0;  // the method in use
   virtual std::string device() const = 0;      // description for reports
 
  protected:
   BufferId drawnLights_ = kNoBuffer;
 
+  void setWork(size_t done, size_t whole) {
+    workDone_ = done;
+    workWhole_ = whole;
+  }
+  void addWork() { workDone_.fetch_add(1, std::memory_order_relaxed); }
   bool isStopped() const { return framesStopped() || (isStopWanted_ && isStopWanted_()); }
 
  private:
   std::function<bool()> isStopWanted_;
+  std::atomic<size_t> workDone_ = 0, workWhole_ = 0;
 };
 
 std::unique_ptr<Backend> makeCpuBackend(std::shared_ptr<const CompiledScene> scene,

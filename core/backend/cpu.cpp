@@ -150,6 +150,10 @@ class CpuBackend final : public Backend {
 
   void submit(const std::vector<PassRun>& passes, const rl::FrameData& frame) override {
     FrameResult result;
+    size_t tiles = 0;
+    for (const PassRun& pass : passes)
+      if (!pass.isRaster()) tiles += tileCount(tilesOf(pass.size(frame)));
+    setWork(0, tiles);
     for (const PassRun& pass : passes)
       result.timesMs.push_back(run(pass, frame, result.counters.emplace_back()));
     finished_.push_back(std::move(result));
@@ -222,18 +226,22 @@ class CpuBackend final : public Backend {
     for (uint32_t k = 0; k < rl::RL_HEALTH_COUNT; ++k) to.health[k] += from.health[k];
   }
 
+  static glm::uvec2 tilesOf(const glm::uvec2& size) { return (size + (kTile - 1)) / kTile; }
+  static size_t tileCount(const glm::uvec2& tiles) { return size_t(tiles.x) * tiles.y; }
+
   void runTiles(rl::CpuKernelEntry entry, const rl::CpuKernelArgs& args, const glm::uvec2& size,
                 PassCounters& counters) {
-    const uint32_t tilesX = (size.x + kTile - 1) / kTile, tilesY = (size.y + kTile - 1) / kTile;
-    std::vector<rl::CpuKernelCounters> tileCounters(size_t(tilesX) * tilesY);
+    const glm::uvec2 tiles = tilesOf(size);
+    std::vector<rl::CpuKernelCounters> tileCounters(tileCount(tiles));
     forEachTile(tileCounters.size(), [&](size_t i) {
-      const auto tx = static_cast<uint32_t>(i % tilesX), ty = static_cast<uint32_t>(i / tilesX);
+      const auto tx = static_cast<uint32_t>(i % tiles.x), ty = static_cast<uint32_t>(i / tiles.x);
       const rl::CpuKernelTile tile{tx * kTile, ty * kTile, std::min((tx + 1) * kTile, size.x),
                                    std::min((ty + 1) * kTile, size.y)};
       // Counted locally: neighbouring entries of the vector share cache lines.
       rl::CpuKernelCounters local;
       entry(args, tile, local);
       tileCounters[i] = local;
+      addWork();
     });
     for (const rl::CpuKernelCounters& c : tileCounters) add(c, counters);
   }

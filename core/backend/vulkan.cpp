@@ -441,7 +441,12 @@ class VulkanBackend final : public Backend {
 
   void waitFor(Slot& slot) {
     const bool isCut = slot.parts.wait(
-        device_, [this] { return isStopped(); }, [this] { stopSlots(); });
+        device_,
+        [&] {
+          setWork(slot.parts.timesMs().size(), slot.parts.count(device_));
+          return isStopped();
+        },
+        [this] { stopSlots(); });
     if (isCut || framesStopped()) throw FrameStopped();
   }
 

@@ -31,6 +31,11 @@ class VulkanParts {
   bool wait(VulkanDevice& device, const std::function<bool()>& isStopped,
             const std::function<void()>& stop);
 
+  // Parts of the frame: as many as timesMs() has in the end, unless the frame is cut.
+  size_t count(const VulkanDevice& device) const {
+    return givesBands(device) ? commands_->size() : 1;
+  }
+
   // Milliseconds that each part took, once wait() has returned: from the end of the one before, or
   // from begin(), to the time at which the host saw its end.
   const std::vector<double>& timesMs() const { return timesMs_; }

@@ -273,6 +273,8 @@ std::optional<FrameStats> Session::frameUnless(const std::function<bool()>& isSt
   return std::nullopt;
 }
 
+double Session::frameFraction() const { return impl_->backend->frameFraction(); }
+
 void Session::takeBack() { impl_->restore(); }
 bool Session::canTakeBack() const { return impl_->beforeFrame.has_value(); }
 

@@ -89,6 +89,9 @@ class Session {
   // doubles their memory; if that does not fit, the frame cannot be stopped. A filter on the host
   // cannot be stopped, either. A signal ends the frame as in frame().
   std::optional<FrameStats> frameUnless(const std::function<bool()>& isStopped);
+  // Done fraction of the work of the frame under way, 0 to 1: a rough number, for people.
+  // Callable by `isStopped` of frameUnless().
+  double frameFraction() const;
   // Undoes the last frame. Requires that frameUnless() has rendered it, that only const members
   // were called since, and that canTakeBack() is true (false if memory did not suffice).
   void takeBack();

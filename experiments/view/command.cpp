@@ -18,6 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr size_t kMostCharacters = 256;  // length limit of a string
+constexpr uint32_t kMostSeenPanes = 64;  // those that bits have room for
 
 // Reads the members of a command. expectNoMore() refuses members that were never read.
 class Members {
@@ -60,6 +61,20 @@ class Members {
   }
 
   uint32_t pane(const char* key = "pane") { return whole(key, 0, kMostPanes - 1); }
+
+  // Reads a list of whole numbers below `most`, at most 64, as bits.
+  uint64_t bits(const char* key, uint32_t most) {
+    const Json& value = at(key);
+    if (!value.is_array() || value.size() > most)
+      fail(fmt::format("'{}' must be a list of at most {} whole numbers", key, most));
+    uint64_t bits = 0;
+    for (const Json& one : value) {
+      if (!one.is_number_integer() || one < 0 || one >= most)
+        fail(fmt::format("'{}' must have whole numbers from 0 to {}", key, most - 1));
+      bits |= uint64_t(1) << one.get<uint32_t>();
+    }
+    return bits;
+  }
 
   std::array<double, 16> numbers16(const char* key) {
     const Json& value = at(key);
@@ -154,7 +169,12 @@ ViewCommand commandOf(Members& members) {
                  members.whole("y", 0, kMaxSide - 1)};
   }
   if (name == "pause") return Pause{members.flag("on")};
-  if (name == "look") return Look{members.flag("on")};
+  if (name == "look") {
+    Look look{members.flag("on")};
+    if (members.has("panes")) look.panes = members.bits("panes", kMostSeenPanes);
+    return look;
+  }
+  if (name == "adaptive") return AdaptMotion{members.flag("on")};
   if (name == "restart") return Restart{};
   if (name == "copy") return CopyMethod{members.pane("from"), members.pane("to")};
   if (name == "undo") return Undo{};
@@ -163,10 +183,10 @@ ViewCommand commandOf(Members& members) {
   if (name == "measure") return Measure{members.has("name") ? members.text("name") : ""};
   if (name == "cancel") return CancelMeasure{};
   if (name == "picture") return SavePicture{members.whole("image", 0, kMostPanes)};
-  const std::vector<std::string> names = {"set",   "parameter", "camera", "resolution", "transport",
-                                          "light", "material",  "layer",  "probe",      "pause",
-                                          "look",  "restart",   "copy",   "undo",       "redo",
-                                          "save",  "measure",   "cancel", "picture"};
+  const std::vector<std::string> names = {
+      "set",   "parameter", "camera", "resolution", "transport", "light",   "material",
+      "layer", "probe",     "pause",  "look",       "adaptive",  "restart", "copy",
+      "undo",  "redo",      "save",   "measure",    "cancel",    "picture"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }

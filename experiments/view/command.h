@@ -12,8 +12,10 @@
 //   layer       pane, name           shows a layer of the method over its image; "": none
 //   probe       pane, x, y           asks for what the pane keeps for a pixel
 //   pause       on                   stops the panes; the reference goes on
-//   look        on                   whether the page is visible; a hidden page gets no images
-//                                    and causes no rendering
+//   look        on, panes?           whether the page is visible; a hidden page gets no images
+//                                    and causes no rendering. panes: those that it shows (default:
+//                                    all); others render nothing
+//   adaptive    on                   whether frames are smaller while the camera moves
 //   restart                          restarts the histories, with the next seed
 //   copy        from, to             gives the pane `to` the method of the pane `from`
 //   undo, redo                       one step back or forth in the settings
@@ -77,6 +79,10 @@ struct Pause {
 };
 struct Look {
   bool on = true;
+  uint64_t panes = ~uint64_t(0);  // bits
+};
+struct AdaptMotion {
+  bool on = true;
 };
 struct Restart {};
 struct CopyMethod {
@@ -97,8 +103,8 @@ struct SavePicture {
 
 using ViewCommand =
     std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetTransport, SetLight, SetMaterial,
-                 ShowLayer, Probe, Pause, Look, Restart, CopyMethod, Undo, Redo, SaveSession,
-                 Measure, CancelMeasure, SavePicture>;
+                 ShowLayer, Probe, Pause, Look, AdaptMotion, Restart, CopyMethod, Undo, Redo,
+                 SaveSession, Measure, CancelMeasure, SavePicture>;
 
 constexpr uint32_t kMostPanes = 2;
 

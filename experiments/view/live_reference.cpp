@@ -38,6 +38,16 @@ bool LiveReference::addSample(const std::function<bool()>& isStopped) {
   return true;
 }
 
+bool LiveReference::takeKept() {
+  if (!progress_) return false;
+  std::optional<ReferenceState> kept = progress_->load();
+  if (!kept || kept->spp() <= state_.spp()) return false;
+  state_ = std::move(*kept);
+  halves_.reset();  // the next sample begins behind them
+  pictures_ = {};
+  return true;
+}
+
 void LiveReference::show(const Reference& reference) {
   pictures_ = {std::max<uint64_t>(1, reference.spp), reference.mean,
                reference.half0.value_or(reference.mean), reference.half1.value_or(reference.mean),

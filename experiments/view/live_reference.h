@@ -24,6 +24,9 @@ class LiveReference {
   // becomes true before the end, the sample is dropped, stays the next one, and the result is
   // false.
   bool addSample(const std::function<bool()>& isStopped = {});
+  // Takes the samples that another program has kept meanwhile, if they are more. Returns whether it
+  // did.
+  bool takeKept();
   // Shows a reference that was read instead of rendering one. If it has no halves, its noise is in
   // every error.
   void show(const Reference& reference);

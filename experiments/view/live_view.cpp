@@ -32,6 +32,14 @@ bool needsOtherMemory(const ViewSettings& a, const ViewSettings& b) {
   return false;
 }
 
+// Ignores layers and seeds.
+bool differsInCameraAlone(const ViewSettings& a, const ViewSettings& b) {
+  ViewSettings moved = a;
+  moved.camera = b.camera;
+  for (size_t i = 0; i < moved.panes.size(); ++i) moved.panes[i].layer = b.panes[i].layer;
+  return isSame(moved, b);
+}
+
 std::optional<FrameStats> nextFrame(Session& session, const LiveView::StopCheck& isStopped) {
   return isStopped ? session.frameUnless(isStopped) : std::optional(session.frame());
 }
@@ -96,8 +104,9 @@ LiveView::LiveView(ViewImages images, ViewSettings settings)
 
 void LiveView::apply(const ViewCommand& command) {
   if (std::holds_alternative<Pause>(command) || std::holds_alternative<Look>(command) ||
-      std::holds_alternative<Probe>(command) || std::holds_alternative<SaveSession>(command) ||
-      std::holds_alternative<Measure>(command) || std::holds_alternative<CancelMeasure>(command) ||
+      std::holds_alternative<AdaptMotion>(command) || std::holds_alternative<Probe>(command) ||
+      std::holds_alternative<SaveSession>(command) || std::holds_alternative<Measure>(command) ||
+      std::holds_alternative<CancelMeasure>(command) ||
       std::holds_alternative<SavePicture>(command))
     return;
   if (std::holds_alternative<Restart>(command)) return restart();
@@ -122,30 +131,36 @@ void LiveView::apply(const ViewCommand& command) {
 
 bool LiveView::renderFrames(const StopCheck& isStopped) {
   if (!rendersAny()) return true;
-  std::vector<std::pair<Pane*, FrameStats>> whole;
+  struct Finished {
+    Pane* pane;
+    Session* session;
+    FrameStats stats;
+  };
+  std::vector<Finished> finished;
   bool mayStop = true;
   for (size_t i = 0; i < panes_.size(); ++i) {
-    if (!renders(i)) continue;
-    Pane& pane = panes_[i];
-    const auto stats = nextFrame(*pane.session, mayStop ? isStopped : StopCheck());
+    if (!renders(i) || !isSeen(i)) continue;
+    underWay_ = i;
+    Session& session = nextSession(i);
+    const auto stats = nextFrame(session, mayStop ? isStopped : StopCheck());
     if (!stats) {
       // Keep the panes in step: undo the frames of panes that have already rendered.
-      for (const auto& [before, ignored] : whole) before->session->takeBack();
+      for (const Finished& before : finished) before.session->takeBack();
       return false;
     }
-    mayStop = mayStop && pane.session->canTakeBack();
-    whole.emplace_back(&pane, *stats);
+    mayStop = mayStop && session.canTakeBack();
+    finished.push_back({&panes_[i], &session, *stats});
   }
-  for (const auto& [pane, stats] : whole) addFrame(*pane, stats);
-  ++age_;
+  for (const Finished& one : finished) addFrame(*one.pane, one.stats);
   return true;
 }
 
 bool LiveView::renderFirstFrames(const StopCheck& isStopped) {
   bool isAny = false;
   for (size_t i = 0; i < panes_.size(); ++i) {
-    if (panes_[i].frames > 0 || !renders(i)) continue;
-    const auto stats = nextFrame(*panes_[i].session, isStopped);
+    if (frames(i) > 0 || !renders(i) || !isSeen(i)) continue;
+    underWay_ = i;
+    const auto stats = nextFrame(nextSession(i), isStopped);
     if (!stats) break;
     addFrame(panes_[i], *stats);
     isAny = true;
@@ -153,11 +168,47 @@ bool LiveView::renderFirstFrames(const StopCheck& isStopped) {
   return isAny;
 }
 
+void LiveView::setDivisor(uint32_t divisor) {
+  const SessionConfig& size = settings_.panes.front().config;
+  const uint32_t most = std::min(size.width, size.height) / kLeastMovingSide;
+  divisor_ = std::clamp(divisor, 1u, std::max(1u, most));
+}
+
+Session& LiveView::nextSession(size_t i) {
+  Pane& pane = panes_[i];
+  if (divisor_ == 1) return *pane.session;
+  SessionConfig config = settings_.panes[i].config;
+  config.width /= divisor_;
+  config.height /= divisor_;
+  if (!pane.moving || !isSameSize(pane.moving->config(), config)) {
+    pane.moving = sessionOf(config, prepared_, settings_.camera);
+    pane.movingFrames = 0;
+  }
+  return *pane.moving;
+}
+
+std::pair<size_t, double> LiveView::progress() const {
+  const Pane& pane = panes_.at(underWay_);
+  const Session& session = divisor_ > 1 && pane.moving ? *pane.moving : *pane.session;
+  return {underWay_, session.frameFraction()};
+}
+
+const Session& LiveView::shownSession(size_t pane) const {
+  return isMoving(pane) ? *panes_[pane].moving : session(pane);
+}
+
+uint64_t LiveView::frames(size_t pane) const {
+  const Pane& one = panes_.at(pane);
+  return one.showsMoving ? one.movingFrames : one.frames;
+}
+
 void LiveView::addFrame(Pane& pane, const FrameStats& stats) {
   pane.stats = stats;
-  ++pane.frames;
-  pane.epoch = epoch_;
-  if (!reference_.hasImage()) return;
+  pane.showsMoving = divisor_ > 1;
+  ++(pane.showsMoving ? pane.movingFrames : pane.frames);
+  (pane.showsMoving ? pane.movingEpoch : pane.epoch) = epoch_;
+  ++pane.age;
+  if (!reference_.hasImage() || pane.showsMoving) return;
   pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
                  reference_.half1(), reference_.spp());
 }
@@ -166,6 +217,10 @@ bool LiveView::refineReference(const StopCheck& isStopped) {
   if (!reference_.addSample(isStopped)) return false;
   measureImages();
   return true;
+}
+
+void LiveView::takeKeptReference() {
+  if (reference_.takeKept()) beginEpoch(false);
 }
 
 std::vector<std::string> LiveView::sources() const {
@@ -177,8 +232,9 @@ std::vector<std::string> LiveView::sources() const {
 }
 
 bool LiveView::rendersAny() const {
-  return std::any_of(settings_.panes.begin(), settings_.panes.end(),
-                     [](const PaneSettings& pane) { return pane.source == kMethodSource; });
+  for (size_t i = 0; i < panes_.size(); ++i)
+    if (renders(i) && isSeen(i)) return true;
+  return false;
 }
 
 const FileImage* LiveView::imageOf(size_t pane) const {
@@ -186,7 +242,7 @@ const FileImage* LiveView::imageOf(size_t pane) const {
 }
 
 const Image* LiveView::picture(size_t pane) const {
-  if (renders(pane)) return frames(pane) > 0 ? &session(pane).radiance() : nullptr;
+  if (renders(pane)) return frames(pane) > 0 ? &shownSession(pane).radiance() : nullptr;
   if (const FileImage* image = imageOf(pane)) return &image->image;
   return reference_.hasImage() ? &reference_.mean() : nullptr;
 }
@@ -197,7 +253,7 @@ uint64_t LiveView::pictureCount(size_t pane) const {
 }
 
 uint64_t LiveView::epochOf(size_t pane) const {
-  if (renders(pane)) return panes_.at(pane).epoch;
+  if (renders(pane)) return isMoving(pane) ? panes_[pane].movingEpoch : panes_.at(pane).epoch;
   return imageOf(pane) == nullptr || isSamePicture(settings_, first_) ? epoch_ : 0;
 }
 
@@ -267,20 +323,35 @@ PreparedScene LiveView::litBy(const PreparedScene& unlit, const LightFactors& li
   return withLights(unlit, CompiledScene::build(std::move(scene)), words);
 }
 
+void LiveView::beginPane(Pane& pane) {
+  pane.error.restart();
+  pane.begun = epoch_;
+  pane.age = 0;
+}
+
 void LiveView::beginEpoch(bool isAnotherPicture) {
   ++epoch_;
-  age_ = 0;
-  for (Pane& pane : panes_) pane.error.restart();
-  if (isAnotherPicture) {
-    ++picture_;
-    if (hasScene()) {
-      ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
-      config.camera = settings_.camera;
-      config.seed = firstSeed_;
-      reference_.begin(prepared_, config);
-    }
-  }
+  for (Pane& pane : panes_) beginPane(pane);
+  if (isAnotherPicture) beginPicture();
   measureImages();
+}
+
+void LiveView::beginPicture() {
+  ++picture_;
+  pictureBegun_ = epoch_;
+  if (!hasScene()) return;
+  ReferenceConfig config = referenceConfigOf(panes_.front().session->config());
+  config.camera = settings_.camera;
+  config.seed = firstSeed_;
+  reference_.begin(prepared_, config);
+}
+
+void LiveView::endMoving() {
+  divisor_ = 1;
+  for (Pane& pane : panes_) {
+    pane.moving.reset();
+    pane.showsMoving = false;
+  }
 }
 
 bool LiveView::setParameters(Pane& pane, const SessionConfig& config) {
@@ -328,6 +399,7 @@ void LiveView::become(ViewSettings next) {
   for (size_t i = 0; i < panes_.size(); ++i)
     next.panes[i].config.seed = settings_.panes[i].config.seed;
   const bool isAnotherPicture = !isSamePicture(settings_, next);
+  if (!differsInCameraAlone(settings_, next)) endMoving();
   // Other materials may need other kernels: sessions begin anew.
   const bool isEdited = settings_.materials != next.materials;
   const PreparedScene edited = isEdited ? editedBy(next.materials) : edited_;
@@ -335,7 +407,7 @@ void LiveView::become(ViewSettings next) {
       isEdited || settings_.lights != next.lights ? litBy(edited, next.lights) : prepared_;
   std::vector<std::unique_ptr<Session>> made(panes_.size());
   std::vector<Pane*> kept;
-  bool isChanged = isAnotherPicture;
+  std::vector<bool> isChanged(panes_.size(), isAnotherPicture);
   if (needsOtherMemory(settings_, next)) requireMemory(next);
   for (size_t i = 0; i < panes_.size(); ++i) {
     const SessionConfig &before = settings_.panes[i].config, &after = next.panes[i].config;
@@ -352,10 +424,12 @@ void LiveView::become(ViewSettings next) {
   for (size_t i = 0; i < panes_.size(); ++i) {
     const ParameterMap &before = settings_.panes[i].config.parameters,
                        &after = next.panes[i].config.parameters;
-    isChanged = isChanged || made[i] || before != after;
+    isChanged[i] = isChanged[i] || made[i] || before != after;
     if (!made[i] && before != after) setParameters(panes_[i], next.panes[i].config);
   }
   for (Pane* pane : kept) pane->session->setCamera(next.camera);
+  for (Pane& pane : panes_)
+    if (pane.moving) pane.moving->setCamera(next.camera);
   for (size_t i = 0; i < panes_.size(); ++i) {
     Pane& pane = panes_[i];
     if (made[i]) {
@@ -365,7 +439,7 @@ void LiveView::become(ViewSettings next) {
     if (settings_.panes[i].source != next.panes[i].source) {
       pane.session->reset(next.panes[i].config.seed);
       pane.frames = 0;
-      isChanged = true;
+      isChanged[i] = true;
     }
     const bool isNew = pane.frames == 0;
     const bool isTouched =
@@ -377,7 +451,12 @@ void LiveView::become(ViewSettings next) {
   settings_ = std::move(next);
   edited_ = edited;
   prepared_ = shown;
-  if (isChanged) beginEpoch(isAnotherPicture);
+  if (isAnotherPicture) return beginEpoch(true);
+  if (std::find(isChanged.begin(), isChanged.end(), true) == isChanged.end()) return;
+  ++epoch_;
+  for (size_t i = 0; i < panes_.size(); ++i)
+    if (isChanged[i]) beginPane(panes_[i]);
+  measureImages();
 }
 
 void LiveView::giveOwnSeed(size_t pane) {
@@ -390,6 +469,7 @@ void LiveView::giveOwnSeed(size_t pane) {
   };
   if (!isTaken()) return;
   while (isTaken()) ++seed;
+  endMoving();
   panes_[pane].session->reset(seed);
   panes_[pane].frames = 0;
   panes_[pane].isPlain = true;
@@ -397,7 +477,10 @@ void LiveView::giveOwnSeed(size_t pane) {
 }
 
 void LiveView::restart() {
-  if (!rendersAny()) failUsage("restart: no pane shows a method");
+  const bool isAny = std::any_of(settings_.panes.begin(), settings_.panes.end(),
+                                 [](const PaneSettings& p) { return p.source == kMethodSource; });
+  if (!isAny) failUsage("restart: no pane shows a method");
+  endMoving();
   for (size_t i = 0; i < panes_.size(); ++i) {
     panes_[i].session->reset(++settings_.panes[i].config.seed);
     panes_[i].frames = 0;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/scene_file/scene_file.h"
@@ -36,23 +37,44 @@ class LiveView {
 
   // Drops the frame or sample if it returns true before the end (Session::frameUnless).
   using StopCheck = std::function<bool()>;
-  // Renders the next frame of each pane that shows a method, in turn. Returns false if dropped:
-  // then all panes are as if no frame had begun.
+  // Renders the next frame of each seen pane that shows a method, in turn. Returns false if
+  // dropped: then all panes are as if no frame had begun.
   bool renderFrames(const StopCheck& isStopped = {});
   // Renders the first frame of panes without one, as after a change of the method. Returns whether
   // there were any.
   bool renderFirstFrames(const StopCheck& isStopped = {});
+  // Renders the next frames at width and height over `divisor`, while a hand moves the camera; 1:
+  // whole size. Smaller frames are rendered by sessions of their own, with their own histories: the
+  // histories of whole frames go on from the last one. Any other change than that of the camera
+  // sets it back to 1.
+  void setDivisor(uint32_t divisor);
+  uint32_t divisor() const { return divisor_; }
+  // Shortest side of a smaller frame, in pixels: a size that would be below is not divided further.
+  static constexpr uint32_t kLeastMovingSide = 16;
+  // Panes that are not seen render nothing. All are seen at first.
+  void setSeen(size_t pane, bool isSeen) { panes_.at(pane).isSeen = isSeen; }
+  bool isSeen(size_t pane) const { return panes_.at(pane).isSeen; }
+  // Pane whose frame is under way and the done fraction of its work, for a callback of
+  // renderFrames().
+  std::pair<size_t, double> progress() const;
   // Adds one sample to the reference. Returns false if it was dropped.
   bool refineReference(const StopCheck& isStopped = {});
+  // Takes a longer reference that another program has stored meanwhile; the numbers begin anew.
+  void takeKeptReference();
   // Stores the reference for other programs.
   void keepReference() { reference_.keep(); }
 
-  // Changes with the picture or a method: numbers of different epochs must not be mixed.
+  // Changes with the picture or a method.
   uint64_t epoch() const { return epoch_; }
+  // Epoch since which the pane shows what it does: numbers from before must not be mixed in. A
+  // change of one pane's method leaves the others'.
+  uint64_t begun(size_t pane) const { return panes_.at(pane).begun; }
+  // Epoch since which the picture is the same: older images show another one.
+  uint64_t pictureBegun() const { return pictureBegun_; }
   // Increases when the reference starts anew.
   uint64_t picture() const { return picture_; }
-  // Frames per pane since the epoch began.
-  uint64_t age() const { return age_; }
+  // Frames of the pane since begun().
+  uint64_t age(size_t pane) const { return panes_.at(pane).age; }
   size_t panes() const { return panes_.size(); }
   const ViewSettings& settings() const { return settings_; }
   const ViewHistory& history() const { return history_; }
@@ -66,16 +88,21 @@ class LiveView {
   std::vector<std::string> sources() const;
   // True if the pane shows a method.
   bool renders(size_t pane) const { return settings_.panes.at(pane).source == kMethodSource; }
+  // True if a seen pane shows a method.
   bool rendersAny() const;
   // Image that the pane shows; null if there is none yet.
   const Image* picture(size_t pane) const;
   // Count behind the picture: frames of a method, samples of the reference, 1 for a file.
   uint64_t pictureCount(size_t pane) const;
-  // Session of the pane's method, also while the pane shows something else.
+  // Session of the pane's method at whole size, also while the pane shows something else.
   const Session& session(size_t pane) const { return *panes_.at(pane).session; }
+  // Session of the pane's newest frame, which may be a smaller one.
+  const Session& shownSession(size_t pane) const;
+  // True if the pane's newest frame is a smaller one.
+  bool isMoving(size_t pane) const { return panes_.at(pane).showsMoving; }
   const FrameStats& stats(size_t pane) const { return panes_.at(pane).stats; }
-  // Frames since the pane's history began.
-  uint64_t frames(size_t pane) const { return panes_.at(pane).frames; }
+  // Frames since the history of the pane's newest frame began.
+  uint64_t frames(size_t pane) const;
   // Epoch of the pane's last frame: a paused pane still shows an older one. The image of a file
   // belongs to the picture that was set at first; for any other picture its epoch is 0.
   uint64_t epochOf(size_t pane) const;
@@ -103,11 +130,20 @@ class LiveView {
     RunningError error;
     uint64_t frames = 0;
     uint64_t epoch = 0;  // epoch of the last frame
+    uint64_t begun = 0, age = 0;
     bool isPlain = true, hasOldLight = false;
+    bool isSeen = true;
+    // Renders smaller frames; made when they are first wanted.
+    std::unique_ptr<Session> moving;
+    uint64_t movingFrames = 0, movingEpoch = 0;
+    bool showsMoving = false;  // the last frame was a smaller one
   };
 
   // Counts a finished frame.
   void addFrame(Pane& pane, const FrameStats& stats);
+  // Session that renders the pane's next frame. Throws Error as the constructor of Session does.
+  Session& nextSession(size_t pane);
+  void endMoving();
   const FileImage* imageOf(size_t pane) const;
   // Measures the errors of images against the current reference.
   void measureImages();
@@ -121,8 +157,11 @@ class LiveView {
   void requireMemory(const ViewSettings& next) const;
   static PreparedScene litBy(const PreparedScene& unlit, const LightFactors& lights);
   PreparedScene editedBy(const MaterialEdits& edits) const;
-  // Restarts the numbers; for another picture the reference, too.
+  // Restarts the numbers of a pane.
+  void beginPane(Pane& pane);
+  // Restarts the numbers of all panes; for another picture the reference, too.
   void beginEpoch(bool isAnotherPicture);
+  void beginPicture();
 
   // Renders `next` from the next frame on; restores the old settings if this throws.
   void become(ViewSettings next);
@@ -145,7 +184,9 @@ class LiveView {
   LiveReference reference_;
   // Fixed: a stored reference is found again after the panes restart with other seeds.
   uint32_t firstSeed_ = 1;
-  uint64_t epoch_ = 0, picture_ = 0, age_ = 0;
+  uint64_t epoch_ = 0, picture_ = 0, pictureBegun_ = 0;
+  uint32_t divisor_ = 1;
+  size_t underWay_ = 0;  // pane whose frame is under way
 };
 
 // Settings of panes with default names filled in, the scene's camera and its light.

@@ -118,6 +118,7 @@ void Measurement::begin(const std::filesystem::path& program, const std::filesys
   rest_.clear();
   error_.clear();
   done_ = 0.0;
+  rows_.follow(folder_ / out_ / "results.jsonl");
 }
 
 void Measurement::cancel() {
@@ -128,10 +129,12 @@ void Measurement::cancel() {
 
 bool Measurement::poll() {
   if (!isRunning()) return false;
-  const bool isNew = read();
+  const bool isRead = read();
+  const bool isNew = rows_.poll() || isRead;
   int status = 0;
   if (waitpid(child_, &status, WNOHANG) != child_) return isNew;
   read();  // the rest of its output
+  rows_.poll();
   close(pipe_);
   end(status);
   return true;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/view/measured_rows.h"
+
 namespace restlab {
 
 class Measurement {
@@ -30,6 +32,8 @@ class Measurement {
 
   State state() const { return state_; }
   bool isRunning() const { return state_ == State::running; }
+  // Rows of its table so far.
+  const std::vector<MeasuredRow>& rows() const { return rows_.rows(); }
   // Last line of output, for people.
   const std::string& text() const { return text_; }
   // Progress of the whole suite, from 0 to 1; 0 while unknown.
@@ -51,6 +55,7 @@ class Measurement {
   std::filesystem::path folder_;
   std::string suite_, out_, text_, rest_, error_;
   double done_ = 0.0;
+  MeasuredRows rows_;
 };
 
 }  // namespace restlab

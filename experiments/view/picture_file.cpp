@@ -104,6 +104,8 @@ std::string pictureBytes(const LiveView& view, size_t image) {
     writeReference(file.path(), view.reference().whole());
   } else {
     if (view.frames(image) == 0) failUsage("picture: no frame was rendered yet");
+    if (view.isMoving(image))
+      failUsage("picture: the camera moves, and the frame is smaller; ask when it rests");
     writeExr(file.path(), frameOf(view, image));
   }
   return bytesOf(file.path());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <optional>
 #include <thread>
@@ -80,7 +81,7 @@ void ViewLoop::run() {
       patience = kIdle;
       if (!sender_.hasPages() && !(tev_ && tev_->connection() > 0)) continue;
       if (!isStanding()) renderRound();
-      if (isPaused_ && !measurement_.isRunning() && view_.renderFirstFrames(stopCheck())) {
+      if (isStanding() && !measurement_.isRunning() && view_.renderFirstFrames(stopCheck())) {
         showPanes();
         tellNumbers();
       }
@@ -104,7 +105,11 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
   std::vector<Said> said;
   for (const PageEvent& event : events) {
     if (event.kind == PageEvent::Kind::opened) welcome(event.client);
-    if (event.kind == PageEvent::Kind::closed) sender_.closed(event.client);
+    if (event.kind == PageEvent::Kind::closed) {
+      sender_.closed(event.client);
+      waitingProbes_.erase(event.client);
+      applySeen();
+    }
     if (event.kind != PageEvent::Kind::said) continue;
     try {
       said.push_back({event.client, event.text, parseViewCommand(event.text)});
@@ -128,7 +133,7 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
   if (events_.takeLost())
     sender_.tellAll(errorText("commands come faster than they can be done: some were lost", ""));
   if (!isOther) return;
-  sender_.tellState(stateText(view_, isPaused_));
+  sender_.tellState(stateText(view_, {isPaused_, movingSize_.isAdaptive()}));
   if (isStanding()) tellNumbers();
 }
 
@@ -136,8 +141,9 @@ void ViewLoop::welcome(ClientId page) {
   // Render a first frame: the exposure in hello is computed from it.
   if (view_.frames(0) == 0 && !isStanding()) view_.renderFrames();
   sender_.opened(page);
+  applySeen();
   sender_.tell(page, helloText(facts_, view_));
-  sender_.tell(page, stateText(view_, isPaused_));
+  sender_.tell(page, stateText(view_, {isPaused_, movingSize_.isAdaptive()}));
   showAll();
   if (measurement_.state() != Measurement::State::none)
     sender_.tell(page, measureText(measurement_));
@@ -145,12 +151,17 @@ void ViewLoop::welcome(ClientId page) {
 
 bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
   if (const auto* look = std::get_if<Look>(&command)) {
-    sender_.setSeen(page, look->on);
+    sender_.setSeen(page, look->on, look->panes);
+    applySeen();
     if (look->on) showAll();
     return false;
   }
   if (const auto* probe = std::get_if<Probe>(&command)) {
-    sender_.tell(page, probeText(facts_, view_, *probe));
+    if (probe->pane < view_.panes() && view_.isMoving(probe->pane)) {
+      waitingProbes_[page] = *probe;
+    } else {
+      sender_.tell(page, probeText(facts_, view_, *probe));
+    }
     return false;
   }
   if (const auto* session = std::get_if<SaveSession>(&command)) {
@@ -186,9 +197,18 @@ void ViewLoop::change(const ViewCommand& command) {
     isPaused_ = pause->on;
     return;
   }
+  if (const auto* adapt = std::get_if<AdaptMotion>(&command))
+    return movingSize_.setAdaptive(adapt->on);
+  if (std::holds_alternative<SetSetting>(command)) sender_.tellProgress(preparingText());
   const uint64_t epoch = view_.epoch(), picture = view_.picture();
   view_.apply(command);
   if (view_.epoch() != epoch) changed_ = Clock::now();
+  if (std::holds_alternative<MoveCamera>(command) && view_.epoch() != epoch) {
+    // Smaller frames show the move: a whole one before them may be dropped at once.
+    if (movingSize_.isAdaptive() && !movingSize_.isMoving(changed_)) wasDropped_ = false;
+    movingSize_.move(changed_);
+    owesFrame_ = isPaused_;
+  }
   if (view_.picture() != picture) {
     pictureChanged_ = changed_;
     referenceCreditS_ = 0.0;
@@ -215,6 +235,10 @@ void ViewLoop::measure(const std::string& name) {
 
 void ViewLoop::followMeasurement() {
   if (!measurement_.poll()) return;
+  if (!measurement_.isRunning()) {
+    view_.takeKeptReference();
+    sender_.tellState(stateText(view_, {isPaused_, movingSize_.isAdaptive()}));
+  }
   if (measurement_.state() == Measurement::State::finished) {
     std::ifstream file(measurement_.report(), std::ios::binary);
     sender_.setReport({std::istreambuf_iterator<char>(file), {}});
@@ -256,25 +280,81 @@ LiveView::StopCheck ViewLoop::stopCheck(double patienceS) const {
   };
 }
 
+LiveView::StopCheck ViewLoop::tellingStopCheck(double patienceS) {
+  constexpr double kLongS = 0.4, kIntervalS = 0.25;
+  const auto start = Clock::now();
+  auto told = std::make_shared<Clock::time_point>(start);  // the check is copied
+  const auto thread = std::this_thread::get_id();
+  return [this, check = stopCheck(patienceS), start, told, thread] {
+    // Only this thread sends; with others it would race.
+    if (std::this_thread::get_id() == thread && secondsSince(start) >= kLongS &&
+        secondsSince(*told) >= kIntervalS) {
+      *told = Clock::now();
+      const auto [pane, fraction] = view_.progress();
+      sender_.tellProgress(progressText(pane, view_.frames(pane) + 1, fraction));
+    }
+    return check();
+  };
+}
+
 void ViewLoop::renderRound() {
   const Clock::time_point start = Clock::now();
-  bool isNew = false;  // a first frame may take any time
-  for (size_t i = 0; i < view_.panes(); ++i)
-    isNew = isNew || (view_.renders(i) && view_.frames(i) == 0);
-  const bool isShort = !isNew && roundS_ < kLongRoundS;
-  wasDropped_ = !view_.renderFrames(isShort ? LiveView::StopCheck()
-                                            : stopCheck(wasDropped_ ? kPatienceS : 0.0));
+  view_.setDivisor(movingSize_.divisor(start));
+  const uint32_t divisor = view_.divisor();
+  bool isNew = false;    // a first frame may take any time
+  bool isFirst = false;  // sessions of smaller frames may have to be made
+  for (size_t i = 0; i < view_.panes(); ++i) {
+    if (!view_.renders(i) || !view_.isSeen(i)) continue;
+    isNew = isNew || view_.frames(i) == 0;
+    isFirst = isFirst || (divisor > 1 && !view_.isMoving(i));
+  }
+  const double lastS = movingSize_.roundS(divisor);
+  const bool isShort = !isNew && lastS > 0.0 && lastS < kLongRoundS;
+  wasDropped_ = !renderFrames(isShort ? LiveView::StopCheck()
+                                      : tellingStopCheck(wasDropped_ ? kPatienceS : 0.0));
   if (wasDropped_) return;
-  roundS_ = secondsSince(start);
+  if (!isFirst) movingSize_.rendered(divisor, secondsSince(start));
+  if (divisor == 1) {
+    owesFrame_ = false;
+    answerProbes();
+  }
   showPanes();
   tellNumbers();
   // Credit is spent at once if samples take longer than rounds; bound it.
   referenceCreditS_ = std::min(referenceCreditS_ + kReferenceShare * secondsSince(start), 60.0);
 }
 
+bool ViewLoop::renderFrames(const LiveView::StopCheck& isStopped) {
+  try {
+    return view_.renderFrames(isStopped);
+  } catch (const Error& error) {
+    if (view_.divisor() == 1 || error.code() == ExitCode::interrupted) throw;
+    movingSize_.setAdaptive(false);
+    view_.setDivisor(1);
+    sender_.tellAll(errorText(fmt::format("no smaller frames: {}", error.what()), ""));
+    return false;
+  }
+}
+
+void ViewLoop::answerProbes() {
+  for (const auto& [page, probe] : std::exchange(waitingProbes_, {})) {
+    try {
+      sender_.tell(page, probeText(facts_, view_, probe));
+    } catch (const Error& error) {
+      sender_.tell(page, errorText(error.what(), ""));
+    }
+  }
+}
+
+void ViewLoop::applySeen() {
+  const uint64_t seen = tev_ ? ~uint64_t(0) : sender_.seenPanes();
+  for (size_t i = 0; i < std::min<size_t>(view_.panes(), 64); ++i)
+    view_.setSeen(i, (seen >> i & 1) != 0);
+}
+
 bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
-  if (!view_.hasScene() || measurement_.isRunning()) return false;
+  if (!view_.hasScene() || measurement_.isRunning() || owesFrame_) return false;
   // Rounds may be longer than kStillS: a drag may have sent more commands meanwhile.
   if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
   if (reference.spp() >= kMostReferenceSpp || view_.picture() == withoutReference_) return false;
@@ -302,6 +382,7 @@ void ViewLoop::showAll() {
 }
 
 bool ViewLoop::isStill() const {
+  if (movingSize_.isMoving(Clock::now())) return false;
   return isStanding() || (secondsSince(changed_) >= kStillS && !events_.areWaiting());
 }
 
@@ -312,11 +393,11 @@ void ViewLoop::showPanes() {
     header.slot = i;
     header.frame = uint32_t(view_.frames(i));
     header.epoch = view_.epochOf(i);
-    sender_.show(header, view_.session(i).radiance(), isStill());
+    sender_.show(header, view_.shownSession(i).radiance(), isStill());
     if (view_.layer(i).empty()) continue;
     header.slot = kFirstLayerSlot + i;
     // Name layers (IDs) must be exact: a rounded ID is another one.
-    sender_.show(header, view_.session(i).aov(view_.layer(i)),
+    sender_.show(header, view_.shownSession(i).aov(view_.layer(i)),
                  isStill() || isNameLayer(view_.settings().panes[i]));
   }
 }

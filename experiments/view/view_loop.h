@@ -2,6 +2,9 @@
 // and sends the images. All of it happens on the thread that calls run(); the server's thread only
 // queues.
 //
+// While a hand moves the camera frames are smaller (moving_size.h), and panes that no page shows
+// render nothing.
+//
 // A round is one frame of each pane; commands run between rounds, so that both panes show the same
 // camera. A command that changes frames drops a long round as a whole: no history, number or time
 // knows of it. The next round then has kPatienceS before it is dropped, so that a drag shows
@@ -22,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/view/moving_size.h"
 #include "experiments/view/tev_sender.h"
 #include "experiments/view/view_sender.h"
 
@@ -65,7 +69,13 @@ class ViewLoop {
   // Returns a check that says whether rendering is to end. Commands do not end it within
   // `patienceS`.
   LiveView::StopCheck stopCheck(double patienceS = 0.0) const;
+  // As stopCheck(); also tells pages how far a long frame is.
+  LiveView::StopCheck tellingStopCheck(double patienceS);
   void renderRound();
+  bool renderFrames(const LiveView::StopCheck& isStopped);
+  void answerProbes();
+  // Lets panes render that a visible page shows.
+  void applySeen();
   // Adds a sample to the reference. Returns true if one was due.
   bool refine();
   // Sends everything that a page has missed while hidden.
@@ -74,7 +84,9 @@ class ViewLoop {
   // Sends new images of panes that show no method.
   void showStanding(bool isUrgent);
   // True if no frame is due.
-  bool isStanding() const { return isPaused_ || !view_.rendersAny() || measurement_.isRunning(); }
+  bool isStanding() const {
+    return (isPaused_ && !owesFrame_) || !view_.rendersAny() || measurement_.isRunning();
+  }
   // Runs `restlab run` on the current settings. Nothing renders meanwhile: its times need a quiet
   // machine.
   void measure(const std::string& name);
@@ -92,12 +104,14 @@ class ViewLoop {
   ViewSender sender_;
   std::atomic<bool> isStopped_{false};
   bool isPaused_ = false;
-  uint32_t filesWritten_ = 0;  // saved sessions
+  bool owesFrame_ = false;  // the camera was moved while panes are paused
+  MovingSize movingSize_;
+  std::map<ClientId, Probe> waitingProbes_;  // asked while the view moves
+  uint32_t filesWritten_ = 0;                // saved sessions
   Measurement measurement_;
   uint64_t withoutReference_ = 0;  // picture whose reference has no memory
   Clock::time_point changed_, pictureChanged_;
   double referenceCreditS_ = 0.0;
-  double roundS_ = 0.0;      // duration of the last round
   bool wasDropped_ = false;  // the last round was dropped
   Clock::time_point referenceShown_;
   std::pair<uint64_t, uint64_t> shownReference_{0, 0};  // epoch and samples

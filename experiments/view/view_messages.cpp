@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/frame/method.h"
@@ -224,6 +225,9 @@ Json paneNumbers(const LiveView& view, size_t i) {
   const RunningError& error = view.error(i);
   if (!view.renders(i)) {
     return {{"frame", 0},
+            {"epoch", view.begun(i)},
+            {"age", 0},
+            {"seen", view.isSeen(i)},
             {"frames_measured", error.frames()},
             {"mse", intervalJson(error.mse())},
             {"relmse", intervalJson(error.relmse())},
@@ -236,13 +240,19 @@ Json paneNumbers(const LiveView& view, size_t i) {
             {"health", Json::object()}};
   }
   const FrameStats& stats = view.stats(i);
-  const SessionConfig& config = view.settings().panes[i].config;
   Json passes = Json::array(), health = Json::object();
   for (const PassTiming& pass : stats.passes)
     passes.push_back({{"name", pass.name}, {"ms", pass.timeMs}});
   for (size_t k = 0; k < stats.health.counts.size(); ++k)
     health[Health::names()[k]] = stats.health.counts[k];
+  const SessionConfig& shown = view.shownSession(i).config();
   return {{"frame", view.frames(i)},
+          {"epoch", view.begun(i)},
+          {"age", view.age(i)},
+          {"seen", view.isSeen(i)},
+          {"moving", view.isMoving(i)},
+          {"width", shown.width},
+          {"height", shown.height},
           {"frames_measured", error.frames()},
           {"mse", intervalJson(error.mse())},
           {"relmse", intervalJson(error.relmse())},
@@ -254,7 +264,7 @@ Json paneNumbers(const LiveView& view, size_t i) {
           {"ms", stats.timeMs},
           {"passes", passes},
           {"rays", stats.raysPath + stats.raysShadow},
-          {"bytes", view.session(i).bytesPerPixel() * config.width * config.height},
+          {"bytes", view.shownSession(i).bytesPerPixel() * shown.width * shown.height},
           {"health", health}};
 }
 
@@ -284,11 +294,12 @@ std::string helloText(const ViewFacts& facts, const LiveView& view) {
                  {"exposure", exposureOf(view)}});
 }
 
-std::string stateText(const LiveView& view, bool isPaused) {
+std::string stateText(const LiveView& view, const LoopState& loop) {
   const ViewSettings& settings = view.settings();
   Json panes = Json::array(), lights = Json::array();
-  for (const PaneSettings& pane : settings.panes) {
-    Json json = Json::object();
+  for (size_t i = 0; i < settings.panes.size(); ++i) {
+    const PaneSettings& pane = settings.panes[i];
+    Json json = {{"epoch", view.begun(i)}};
     for (const MethodSetting& setting : methodSettings())
       json[setting.key] = pane.config.*(setting.value);
     json["source"] = pane.source;
@@ -306,6 +317,7 @@ std::string stateText(const LiveView& view, bool isPaused) {
   const ViewHistory& history = view.history();
   return textOf({{"say", "state"},
                  {"epoch", view.epoch()},
+                 {"picture_epoch", view.pictureBegun()},
                  {"panes", panes},
                  {"camera",
                   {{"to_world", matrixJson(settings.camera)},
@@ -316,7 +328,8 @@ std::string stateText(const LiveView& view, bool isPaused) {
                  {"transport", view.hasScene() ? transportJson(size) : Json::array()},
                  {"lights", lights},
                  {"materials", view.hasScene() ? materialsJson(view) : Json::array()},
-                 {"paused", isPaused},
+                 {"paused", loop.isPaused},
+                 {"adaptive", loop.isAdaptive},
                  {"can_undo", history.canUndo()},
                  {"can_redo", history.canRedo()},
                  {"undo_text", history.undoText()},
@@ -325,7 +338,11 @@ std::string stateText(const LiveView& view, bool isPaused) {
 
 std::string numbersText(const LiveView& view, const Transport& transport, double load) {
   Json panes = Json::array();
-  for (size_t i = 0; i < view.panes(); ++i) panes.push_back(paneNumbers(view, i));
+  std::optional<uint64_t> age;  // of the youngest pane that renders
+  for (size_t i = 0; i < view.panes(); ++i) {
+    panes.push_back(paneNumbers(view, i));
+    if (view.renders(i) && view.isSeen(i)) age = std::min(age.value_or(view.age(i)), view.age(i));
+  }
   const LiveReference& reference = view.reference();
   const SessionConfig& size = view.settings().panes.front().config;
   const double sampleMs = reference.sampleMs();
@@ -337,7 +354,7 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
   }
   return textOf({{"say", "numbers"},
                  {"epoch", view.epoch()},
-                 {"age", view.age()},
+                 {"age", age.value_or(0)},
                  {"newest_frames", RunningError::kNewest},
                  {"panes", panes},
                  {"reference", referenceJson},
@@ -375,6 +392,12 @@ std::string errorText(const std::string& line, const std::string& command) {
                  {"command", command.empty() ? Json(nullptr) : Json(command)}});
 }
 
+std::string progressText(size_t pane, uint64_t frame, double fraction) {
+  return textOf({{"say", "progress"}, {"pane", pane}, {"frame", frame}, {"fraction", fraction}});
+}
+
+std::string preparingText() { return textOf({{"say", "progress"}, {"pane", nullptr}}); }
+
 std::string saidText(const std::string& line) { return textOf({{"say", "said"}, {"text", line}}); }
 
 std::string savedText(const std::string& name, const std::string& toml) {
@@ -388,12 +411,22 @@ std::string measureText(const Measurement& measurement) {
       {Measurement::State::finished, "finished"},
       {Measurement::State::failed, "failed"},
       {Measurement::State::cancelled, "cancelled"}};
+  Json rows = Json::array();
+  for (const MeasuredRow& row : measurement.rows()) {
+    rows.push_back({{"method", row.method},
+                    {"runs", row.runs},
+                    {"mse", orNull(row.mse)},
+                    {"relmse", orNull(row.relmse)},
+                    {"energy", orNull(row.energy)},
+                    {"ms", orNull(row.timeMs)}});
+  }
   return textOf({{"say", "measure"},
                  {"state", names.at(measurement.state())},
                  {"text", measurement.text()},
                  {"done", measurement.done()},
                  {"suite", measurement.suite()},
-                 {"folder", measurement.out()}});
+                 {"folder", measurement.out()},
+                 {"rows", rows}});
 }
 
 std::string fileText(const std::string& name, const std::string& bytes) {

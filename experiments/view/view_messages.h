@@ -36,13 +36,21 @@ struct Transport {
 };
 
 std::string helloText(const ViewFacts& facts, const LiveView& view);
-std::string stateText(const LiveView& view, bool isPaused);
+// State of the loop that pages can change.
+struct LoopState {
+  bool isPaused = false, isAdaptive = true;
+};
+std::string stateText(const LiveView& view, const LoopState& loop);
 // `load`: load average per thread of the machine.
 std::string numbersText(const LiveView& view, const Transport& transport, double load);
 // Throws Error (badUsage) if there is no such pixel or no frame yet.
 std::string probeText(const ViewFacts& facts, const LiveView& view, const Probe& probe);
 // `command`: text of the refused command.
 std::string errorText(const std::string& line, const std::string& command);
+// Tells that a frame of a pane is under way; `fraction` of its work is done.
+std::string progressText(size_t pane, uint64_t frame, double fraction);
+// Tells that a method is made ready, which may take seconds: its kernels are compiled.
+std::string preparingText();
 std::string saidText(const std::string& line);
 std::string savedText(const std::string& name, const std::string& toml);
 std::string measureText(const Measurement& measurement);

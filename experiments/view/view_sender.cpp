@@ -29,7 +29,18 @@ void ViewSender::tellNewest(uint32_t slot, const std::string& text, bool isForUn
     if (isForUnseen || unseen_.count(page) == 0) server_.sendNewest(page, slot, text);
 }
 
-void ViewSender::setSeen(ClientId page, bool isSeen) {
+uint64_t ViewSender::seenPanes() const {
+  uint64_t seen = pages_.empty() ? ~uint64_t(0) : 0;
+  for (const ClientId page : pages_) {
+    if (unseen_.count(page) > 0) continue;
+    const auto its = panes_.find(page);
+    seen |= its == panes_.end() ? ~uint64_t(0) : its->second;
+  }
+  return seen;
+}
+
+void ViewSender::setSeen(ClientId page, bool isSeen, uint64_t panes) {
+  if (pages_.count(page) > 0) panes_[page] = panes;
   if (isSeen) {
     unseen_.erase(page);
   } else if (pages_.count(page) > 0) {

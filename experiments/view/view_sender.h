@@ -30,9 +30,13 @@ class ViewSender {
   void closed(ClientId page) {
     pages_.erase(page);
     unseen_.erase(page);
+    panes_.erase(page);
   }
-  // Hides or shows a page: a page in the background gets no numbers and no images.
-  void setSeen(ClientId page, bool isSeen);
+  // Hides or shows a page: a page in the background gets no numbers and no images. `panes`: those
+  // that it shows, as bits.
+  void setSeen(ClientId page, bool isSeen, uint64_t panes);
+  // Panes that a visible page shows, as bits; all if no page is open.
+  uint64_t seenPanes() const;
 
   // Sends texts in order. A page that does not read them for long is disconnected.
   void tell(ClientId page, const std::string& text) { server_.send(page, text); }
@@ -40,6 +44,7 @@ class ViewSender {
   // Replaces a waiting text of the same kind.
   void tellState(const std::string& text) { tellNewest(kStateSlot, text, true); }
   void tellNumbers(const std::string& text) { tellNewest(kNumbersSlot, text, false); }
+  void tellProgress(const std::string& text) { tellNewest(kProgressSlot, text, false); }
   // Sends to all visible pages. `isExact`: as floats, whatever the size.
   void show(ImageHeader header, const Image& image, bool isExact);
 
@@ -52,10 +57,11 @@ class ViewSender {
   Transport transport();
 
  private:
-  static constexpr uint32_t kStateSlot = 1000, kNumbersSlot = 1001;
+  static constexpr uint32_t kStateSlot = 1000, kNumbersSlot = 1001, kProgressSlot = 1002;
   void tellNewest(uint32_t slot, const std::string& text, bool isForUnseen);
 
   std::set<ClientId> pages_, unseen_;
+  std::map<ClientId, uint64_t> panes_;       // of pages that show some panes only
   std::map<uint32_t, PixelFormat> formats_;  // by slot
   std::chrono::steady_clock::time_point measured_ = std::chrono::steady_clock::now();
   uint64_t measuredBytes_ = 0;

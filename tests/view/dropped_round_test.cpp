@@ -69,10 +69,10 @@ TEST(DroppedRounds, EnterNoHistoryAndNoNumber) {
   int dropped = 0;
   const auto drop = [&](LiveView& from, int look) {
     const double ms = from.stats(0).timeMs;
-    const uint64_t age = from.age();
+    const uint64_t age = from.age(0);
     EXPECT_FALSE(from.renderFrames(stopAt(look))) << look;
     EXPECT_EQ(from.stats(0).timeMs, ms);
-    EXPECT_EQ(from.age(), age);
+    EXPECT_EQ(from.age(0), age);
     ++dropped;
   };
   for (uint64_t frame = 1; frame < 4; ++frame) {
@@ -81,7 +81,7 @@ TEST(DroppedRounds, EnterNoHistoryAndNoNumber) {
     EXPECT_TRUE(view.renderFrames());
     expectFrame(frame, true);
   }
-  EXPECT_EQ(view.age(), 4u);
+  EXPECT_EQ(view.age(0), 4u);
   for (uint64_t frame = 4; frame < 7; ++frame) {
     drop(view, 2);
     SceneCamera camera = cornellBox().scene->source().cameras[0];
@@ -112,6 +112,7 @@ class DroppedRoundTest : public ViewLoopTest {
 TEST_F(DroppedRoundTest, CommandsDoNotWaitForIt) {
   Page page(url());
   page.waitFor("numbers", [](const Json& n) { return n["age"] >= 1; });
+  page.say({{"do", "adaptive"}, {"on", false}});
   page.say({{"do", "resolution"}, {"width", kSide}, {"height", kSide}});
   const Json state = page.waitFor("state", [](const Json& s) { return s["width"] == kSide; });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

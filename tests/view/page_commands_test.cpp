@@ -38,9 +38,10 @@ const contexts = {
 };
 // A pane that stood while its history began anew has nothing to probe.
 const rendered = async () => {
+  viewer.set({mode: 'side'});  // what is not in view renders nothing
   send({do: 'pause', on: false});
   await until(() => !page.state.paused && page.last.epoch === page.state.epoch &&
-                    page.last.panes.every(pane => pane.frame > 0));
+                    page.last.panes.every(pane => pane.seen && pane.frame > 0));
 };
 // Preconditions of some commands: without them a command changes nothing.
 const first = {

@@ -75,7 +75,7 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos);
   const Json first = page("return page.probe.answers.map(one => [one.frame, one.epoch]);");
   page(
-      "page.camera.lookFrom([0.2, 1, 2.5], [0, 1, 0]);"
+      "send({do: 'transport', name: 'max_bounces', value: 2});"
       "await until(() => page.state.epoch > " +
       first[0][1].dump() + ");");
   EXPECT_NE(page(hint).get<std::string>().find("before the change"), std::string::npos)
@@ -97,7 +97,8 @@ TEST_F(PagePanelsTest, ErrorsThatAreNotAboveZeroAreInThePlot) {
   page(R"(const panes = mse => [0, 1].map(() => ({frame: 0, ms: 1, last_mse: mse, passes: []}));
     page.showNumbers = () => {};  // those of the program
     window.numbers = (epoch, list) => list.forEach((mse, i) => page.plots.add({
-      epoch, age: 10 * (i + 1), panes: panes(mse).map(pane => ({...pane, frame: i + 1}))}));
+      epoch, age: 10 * (i + 1), panes: panes(mse).map(pane => ({
+        ...pane, epoch, age: 10 * (i + 1), frame: i + 1}))}));
     numbers(1e9, [1e-2, -1e-3, 0, 1e-3]);
     page.plots.show();)");
   EXPECT_EQ(page("return page.plots.series.curves[0].points.map(point => point.mse);"),

@@ -74,6 +74,68 @@ TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
               percentileOf(delays, 0.5), percentileOf(delays, 0.95));
 }
 
+// Flies for five seconds: pictures of pane A a second, and the time from a key to the first picture
+// of another view, with smaller frames and with whole ones.
+TEST_F(PageSpeedTest, NightlyFlying) {
+  facts_.request.scene = "door-ajar";
+  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", "accumulate")};
+  for (SessionConfig& pane : panes) {
+    pane.width = 320;
+    pane.height = 180;
+    pane.maxBounces = 8;
+    pane.threads = 2;
+  }
+  serve(panes);
+  browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
+  waitUntilShown(*browser_);
+  double perSecond[2] = {};
+  for (const char* mode : {"side", "wipe"}) {
+    for (const bool isAdaptive : {false, true}) {
+      const Json read = page(R"(
+        viewer.set({mode: ')" +
+                             std::string(mode) + R"(', current: 0, compare: 2});
+        send({do: 'adaptive', on: )" +
+                             (isAdaptive ? "true" : "false") + R"(});
+        await until(() => page.state.adaptive === )" +
+                             (isAdaptive ? "true" : "false") + R"();
+        const rest = ms => new Promise(resolve => setTimeout(resolve, ms));
+        await rest(3000);
+        const set = viewer.setImage, seen = [];
+        viewer.setImage = (i, change) => {
+          set.call(viewer, i, change);
+          if (i === 0 && change.data) seen.push([performance.now(), change.epoch, change.width]);
+        };
+        const delays = [];
+        for (let i = 0; i < 5; ++i) {
+          const {epoch} = page.state, before = seen.length, begin = performance.now();
+          page.camera.hold(i % 2 ? 'back' : 'forward');
+          await until(() => seen.slice(before).some(one => one[1] > epoch));
+          await frame();
+          delays.push(performance.now() - begin);
+          page.camera.release(i % 2 ? 'back' : 'forward');
+          await rest(1500);
+        }
+        const before = seen.length, begin = performance.now();
+        page.camera.hold('turn-left');
+        await rest(5000);
+        page.camera.release('turn-left');
+        const spent = performance.now() - begin, pictures = seen.slice(before);
+        viewer.setImage = set;
+        return {delays, perSecond: 1000 * pictures.length / spent,
+                width: pictures.length ? pictures[pictures.length - 1][2] : 0};)");
+      perSecond[isAdaptive ? 1 : 0] = read["perSecond"];
+      std::printf(
+          "%s, %s frames (%d wide): %.1f pictures a second; first picture of a view after "
+          "%.0f ms (median), %.0f ms (longest)\n",
+          mode, isAdaptive ? "smaller" : "whole", read["width"].get<int>(),
+          perSecond[isAdaptive ? 1 : 0],
+          percentileOf(read["delays"].get<std::vector<double>>(), 0.5),
+          percentileOf(read["delays"].get<std::vector<double>>(), 1.0));
+    }
+    EXPECT_GT(perSecond[1], 0.0) << mode;
+  }
+}
+
 // Compares the passes of frames in a view that nobody sees and in one that a page receives, in
 // turn.
 TEST_F(PageSpeedTest, NightlyBeingWatched) {

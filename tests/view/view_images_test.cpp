@@ -86,7 +86,7 @@ TEST_F(ViewImagesTest, AreMeasuredAgainstTheirReference) {
   view.apply(CopyMethod{1, 0});
   EXPECT_EQ(view.settings().panes[0].source, "b");
   view.renderFrames();
-  EXPECT_EQ(view.age(), 0u) << "nothing renders";
+  EXPECT_EQ(view.age(0), 0u) << "nothing renders";
 }
 
 TEST_F(ViewImagesTest, RefuseWhatNeedsAMethodInOneLine) {

@@ -16,11 +16,12 @@ function bestColumns(n, width, mostHeight, aspect) {
   return best;
 }
 
-// True if two images can be compared pixel by pixel. Images of a live page have an epoch; different
-// epochs mean another picture or method.
+// True if two images can be compared pixel by pixel. Images of a live page have an epoch: those since
+// `pictureEpoch` show the same camera and light.
 function areComparable(a, b) {
+  const isOfPicture = image => image.epoch >= image.pictureEpoch;
   return Boolean(a.data && b.data) && a.data.length === b.data.length && a.width === b.width &&
-      a.height === b.height && a.epoch === b.epoch;
+      a.height === b.height && (a.epoch === b.epoch || (isOfPicture(a) && isOfPicture(b)));
 }
 
 // Returns {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]}

@@ -2,7 +2,8 @@
 class Viewer {
   // `data` as in the report; `images`: {name, role, width, height, data, nonfinite, version}. On a
   // live page `data` may also have `room()`: height of the stage in CSS pixels, which is then
-  // filled; `pointer` (pointer.js); `idle()`: the status line while the pointer is outside.
+  // filled; `pointer` (pointer.js); `idle()`: the status line while the pointer is outside;
+  // `arranged(images)`: called with the images in view.
   constructor(root, data, images) {
     // `pointer`: position in the stage in CSS pixels, or null; `pixel` and `overView`: pixel and
     // view at that position.
@@ -90,10 +91,17 @@ class Viewer {
   label(view) {
     const error = view.isError ? ` \u2013 ${ERRORS[this.state.error].title}` : '';
     const image = this.images[view.image];
-    // On a live page: the image was rendered before the last change.
-    const isOld = image.data && image.epoch !== undefined && image.epoch !== this.data.epoch;
-    return `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${
-        isOld ? ' \u2013 before the change' : ''}`;
+    return `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${this.age(image)}`;
+  }
+
+  // On a live page: whether the image was rendered before the last change of what it shows, is
+  // smaller while the camera moves, or is being rendered.
+  age(image) {
+    const isOld = image.data && image.epoch < image.since;
+    const isSmall = image.data && image.width !== this.camera.width;
+    return (isOld ? ' \u2013 before the change' : '') +
+        (isSmall ? ` \u2013 ${image.width}\u00d7${image.height}` : '') +
+        (image.progress ? ` \u2013 ${image.progress}` : '');
   }
 
   // Schedules a drawing for the next frame; repeated calls are merged.
@@ -110,6 +118,7 @@ class Viewer {
     const width = this.frame.clientWidth;
     if (!width) return;
     this.stage.arrange(this.state, this.room(width));
+    if (this.data.arranged) this.data.arranged(this.stage.views.map(view => view.image));
     const hit = this.pointer && this.stage.hit(...this.pointer);
     this.pixel = hit ? hit.pixel : null;
     this.overView = hit ? hit.view : 0;

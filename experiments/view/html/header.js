@@ -2,7 +2,8 @@
 
 const LINK_TEXTS = {
   connecting: 'connecting \u2026', connected: 'connected', reconnecting: 'reconnecting \u2026',
-  ended: 'the program does not answer: start it again and open its new address'
+  ended: 'the program does not answer: start it again and open its new address',
+  replaced: 'another viewer was started here: open the address that it has printed'
 };
 
 class Header {

@@ -1,6 +1,8 @@
 // Page of a live session: a viewer of two panes and the reference, with panels beside it.
 
 const REFERENCE_SLOT = 2, LAYER_SLOTS = 16;
+// Milliseconds after which a pane that has left the view stops rendering.
+const HIDE_DELAY_MS = 700;
 
 class LivePage {
   constructor() {
@@ -22,8 +24,12 @@ class LivePage {
       numbers: numbers => this.showNumbers(numbers), probe: answer => this.probe?.answer(answer),
       error: message => this.refused(message),
       said: ({text}) => this.messages.notice(text),
+      progress: progress => this.showProgress(progress),
       saved: ({name, toml}) => downloadText(name, toml),
-      measure: message => this.measurement?.show(message),
+      measure: message => {
+        this.measurement?.show(message);
+        if (this.viewer) this.showCameraMode();
+      },
       file: ({name, base64}) => downloadBlob(name, new Blob([bytesOfBase64(base64)])),
       image: head => this.showImage(head), link: state => this.header.showLink(state)
     });
@@ -32,7 +38,42 @@ class LivePage {
   get state() { return this.session.state; }
 
   // Tells the program whether the page is visible: it renders nothing for hidden pages.
-  look() { this.session.socket.send(JSON.stringify({do: 'look', on: !document.hidden})); }
+  // It also tells which panes are in view: others render nothing.
+  look() {
+    const look = {do: 'look', on: !document.hidden};
+    if (this.seen) look.panes = this.seen;
+    this.session.socket.send(JSON.stringify(look));
+  }
+
+  // A pane that comes into view renders at once. One that leaves it goes on for a moment: a held key
+  // shows another image.
+  arranged(images) {
+    this.inView = images.filter(i => this.viewer.images[i].role !== 'reference').sort();
+    const seen = this.seen || this.viewer.images.map((_, i) => i).slice(0, this.state.panes.length);
+    this.setSeen([...new Set([...seen, ...this.inView])].sort());
+    if (this.seen.length === this.inView.length || this.leaving) return;
+    this.leaving = setTimeout(() => {
+      this.leaving = null;
+      this.setSeen(this.inView);
+    }, HIDE_DELAY_MS);
+  }
+
+  setSeen(seen) {
+    const isNew = !this.seen || this.seen.join() !== seen.join();
+    this.seen = seen;
+    if (isNew) this.look();
+  }
+
+  // Shows how far a long frame is, or that a method is made ready.
+  showProgress({pane, frame, fraction}) {
+    if (!this.viewer) return;
+    const text = pane === null ? 'preparing' : `frame ${frame}: ${Math.floor(100 * fraction)} %`;
+    this.viewer.images.forEach((image, i) => {
+      const isMeant = image.role !== 'reference' && (pane === null || i === pane);
+      const progress = isMeant ? text : pane === null ? null : image.progress;
+      if (image.progress !== progress) this.viewer.setImage(i, {progress});
+    });
+  }
 
   // Reloads the page if the program now has another scene: nothing shown here would be true.
   greet(hello) {
@@ -48,7 +89,12 @@ class LivePage {
     if (!isFirst && count !== this.viewer.images.length) location.reload();
     this.root.dataset.epoch = state.epoch;
     if (isFirst) this.build(state);
-    this.viewer.data.epoch = state.epoch;
+    this.viewer.images.forEach((image, i) => {
+      const pane = image.role === 'reference' ? null : state.panes[i];
+      image.pictureEpoch = state.picture_epoch;
+      image.since = pane ? Math.max(pane.epoch, state.picture_epoch) : state.picture_epoch;
+      image.progress = null;
+    });
     state.panes.forEach((pane, i) => {
       this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${paneName(pane, this.hello)}`});
       const hasLayer = pane.layer && !pane.source;
@@ -88,6 +134,7 @@ class LivePage {
     this.camera = new CameraControl(this, bounds || {lo: [-1, -1, -1], hi: [1, 1, 1]});
     const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
+                  arranged: images => this.arranged(images),
                   idle: () => this.idleText()};
     this.viewer = this.root.viewer = new Viewer(this.root, data, images);
     this.viewer.frame.append(this.badge);
@@ -154,7 +201,7 @@ class LivePage {
     if (!images[i]) return;
     const data = readPixels(head, images[i].data);
     this.viewer.setImage(i, {data, nonfinite: nonfinitePixels(data), width, height,
-                             epoch: head.epoch});
+                             epoch: head.epoch, progress: null});
     this.root.dataset.received = Number(this.root.dataset.received || 0) + 1;
   }
 
@@ -198,7 +245,9 @@ class LivePage {
   }
 
   showCameraMode() {
-    setText(this.badge, this.camera.describe());
+    setText(this.badge, this.measurement.isRunning
+        ? 'measuring: nothing renders here until the run ends or is cancelled'
+        : this.camera.describe());
     this.badge.hidden = !this.badge.textContent;
     this.root.dataset.camera = this.camera.isOn ? 'fly' : this.camera.isOrbit ? 'orbit' : 'none';
     this.header.showCamera(this.camera);

@@ -1,5 +1,7 @@
 // Panel that starts `restlab run` on the current settings, follows it and links its report.
 
+const MEASURED_HEADS = ['method', 'runs', 'MSE', 'relMSE', 'energy', 'time'];
+
 class MeasurePanel {
   constructor(page) {
     this.page = page;
@@ -13,15 +15,20 @@ class MeasurePanel {
     this.text = make('p', {class: 'hint', role: 'status', 'data-measure': 'none'});
     this.link = make('a', {target: '_blank', rel: 'noopener', hidden: ''}, 'open the report');
     this.link.href = `/report${location.search}`;
+    this.rows = make('tbody', {});
+    this.table = make('table', {class: 'measured', hidden: ''},
+                      make('caption', {}, 'means over the runs so far'),
+                      make('thead', {}, make('tr', {}, ...MEASURED_HEADS.map(
+                          head => make('th', {scope: 'col'}, head)))), this.rows);
     this.element = make('fieldset', {class: 'measure'}, make('legend', {}, 'measure'),
                         make('div', {class: 'line'}, this.name, this.begin, this.cancel),
-                        this.progress, this.text, this.link);
-    this.show({state: 'none', text: '', done: 0});
+                        this.progress, this.text, this.table, this.link);
+    this.show({state: 'none', text: '', done: 0, rows: []});
   }
 
   get isRunning() { return this.state === 'running'; }
 
-  show({state, text, done, folder}) {
+  show({state, text, done, folder, rows}) {
     this.state = state;
     this.begin.disabled = this.isRunning || !this.page.hello.has_scene;
     this.cancel.disabled = !this.isRunning;
@@ -36,6 +43,11 @@ class MeasurePanel {
             : 'Images of files are shown: there is nothing to measure.')
         : `${folder}: ${state === 'finished' || state === 'running' ? '' : `${state}: `}${text}`);
     this.link.hidden = state !== 'finished';
+    this.table.hidden = !rows.length;
+    this.rows.replaceChildren(...rows.map(({method, runs, mse, relmse, energy, ms}) => make(
+        'tr', {}, make('th', {scope: 'row'}, method),
+        ...[runs, quantity(mse), quantity(relmse), quantity(energy, 4), milliseconds(ms)].map(
+            text => make('td', {class: 'num'}, String(text))))));
   }
 
   ask() {

@@ -16,9 +16,10 @@ const NUMBER_ROWS = [
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
   ['frames', 'frame / of', 'frames of the history; frames in the window of the numbers above',
-   pane => showsMethod(pane) ? `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}`
-                             : NOTHING],
-  ['ms', 'time', 'milliseconds of the last frame', pane => milliseconds(pane.ms)],
+   pane => !showsMethod(pane) ? NOTHING
+       : `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}${pane.seen ? '' : ', hidden'}`],
+  ['ms', 'time', 'of the last frame; while the camera moves frames are smaller',
+   pane => milliseconds(pane.ms) + (pane.moving ? ` at ${pane.width}\u00d7${pane.height}` : '')],
   ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
   ['bytes', 'memory', 'bytes that the method keeps', pane => bytesText(pane.bytes)]
 ];

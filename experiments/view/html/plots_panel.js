@@ -18,9 +18,7 @@ class PlotsPanel {
   }
 
   add(numbers) {
-    const began = this.series.epoch !== numbers.epoch;
-    this.series.add(numbers);
-    if (began) this.count = (this.count || 0) + 1;
+    const began = this.series.add(numbers);
     this.numbers = numbers;
     if (began || performance.now() - this.drawn > PLOT_INTERVAL_MS) this.show();
   }
@@ -34,7 +32,7 @@ class PlotsPanel {
     const points = curves.map(curve => curve.points);
     this.byAge.show(points, before);
     this.byTime.show(points, before);
-    const times = this.count - 1;
+    const times = this.series.changes;
     setText(this.mark, isNothing ? 'Nothing renders: there are no frames to plot.' : times > 0
         ? `Begun anew by a change (${times} so far); the pale curves are those before it.`
         : 'A change of a setting begins the curves anew.');

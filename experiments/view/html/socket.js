@@ -5,7 +5,7 @@ const MOST_FAILURES = 5;
 
 class Socket {
   // `on`: {text(string), bytes(ArrayBuffer), link(state)}; the states are connecting, connected,
-  // reconnecting and ended.
+  // reconnecting, ended and replaced: another program listens there, which does not know the address.
   constructor(url, on) {
     Object.assign(this, {url, on, failures: 0});
     this.open();
@@ -32,7 +32,20 @@ class Socket {
       return;
     }
     this.on.link('reconnecting');
-    setTimeout(() => this.open(), Math.min(4000, 250 * 2 ** this.failures));
+    const delay = Math.min(4000, 250 * 2 ** this.failures);
+    setTimeout(async () => {
+      if (await this.isRefused()) this.on.link('replaced'); else this.open();
+    }, delay);
+  }
+
+  // A WebSocket does not tell why it was refused; the page's own address does.
+  async isRefused() {
+    try {
+      const {status} = await fetch(location.pathname + location.search, {cache: 'no-store'});
+      return status === 403;
+    } catch {
+      return false;  // nothing listens
+    }
   }
 
   // Tries again after the program has ended.

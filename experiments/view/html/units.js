@@ -24,4 +24,6 @@ function withPrefix(value, unit, base = 1000) {
 }
 
 const bytesText = value => withPrefix(value, 'B', 1024);
-const milliseconds = value => typeof value === 'number' ? `${quantity(value)} ms` : NOTHING;
+// Writes a time given in milliseconds; seconds from one second on.
+const milliseconds = value => typeof value !== 'number' ? NOTHING
+    : value < 1000 ? `${quantity(value)} ms` : `${quantity(value / 1000)} s`;
