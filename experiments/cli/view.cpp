@@ -142,10 +142,10 @@ ViewStart startOf(const CLI::App& verb, ViewOptions& options) {
   if (isResults(name)) {
     requireNoOptions(verb, name, {"--table"}, "a folder of results, which is not rendered");
     start.images = readResultsImages(name, options.table, options.anyReference);
-    const std::vector<std::string> tables = tablesOfResults(name);
+    const std::vector<std::string>& tables = start.images.tables;
     if (options.table.empty() && tables.size() > 1) {
-      logInfo(fmt::format("{}: shows {}; --table chooses another one: {}", name, tables.front(),
-                          fmt::join(tables, ", ")));
+      logInfo(fmt::format("{}: shows {}; the page and --table choose another one: {}", name,
+                          tables.front(), fmt::join(tables, ", ")));
     }
   } else if (isImage(name)) {
     requireNoOptions(verb, name, {"images", "--ref"}, "images of files, which are not rendered");
@@ -226,7 +226,10 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
   const int threads = start.settings.panes.front().config.threads;
   options.server.page = viewPage();
   ViewLoop loop(live,
-                {start.request, threads > 0 ? threads : int(std::thread::hardware_concurrency())},
+                {start.request,
+                 threads > 0 ? threads : int(std::thread::hardware_concurrency()),
+                 {},
+                 keptWarnings()},
                 options.server, ".", tev);
   print("{}\n", loop.url());
   std::fflush(stdout);

@@ -1,7 +1,9 @@
 // Writes the viewer's container and its data.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ostream>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/image/image.h"
@@ -31,6 +33,19 @@ std::string extentText(const Image& image, const Crop& crop, size_t limit, bool 
       "image; the EXR files hold all.",
       crop.width, crop.height, crop.x, crop.y, image.width, image.height,
       byError ? "where the relative error is largest" : "the centre", kept, groupedDigits(limit));
+}
+
+// Adds error and time of the image's row, for its label.
+void addNumbers(const ReportModel& block, const ReportModel& name, ReportModel& image) {
+  for (const ReportModel& row : block["rows"]) {
+    if (row["method"] != name) continue;
+    for (const auto& [key, label] : {std::pair("mse", "mse"), {"time_ms", "ms"}}) {
+      const auto cell = row["cells"].find(key);
+      if (cell == row["cells"].end()) continue;
+      const double number = reportNumber((*cell)["value"]);
+      if (std::isfinite(number)) image[label] = number;
+    }
+  }
 }
 
 }  // namespace
@@ -67,6 +82,7 @@ void writeImages(std::ostream& out, const ReportModel& block, size_t index,
     data["images"].push_back({{"name", cleanText(reportText(list[i], "name"))},
                               {"role", list[i]["role"]},
                               {"pixels", fmt::format("pixels-{}-{}", index, i)}});
+    if (list[i]["role"] == "method") addNumbers(block, list[i]["name"], data["images"].back());
   }
   out << fmt::format(
       "<h3>Images</h3>\n<p class=\"hint\">{}</p>\n"

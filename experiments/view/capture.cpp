@@ -94,8 +94,10 @@ Figure capture(LiveView& view, const CaptureOptions& options) {
   renderAll(view, options);
   const std::vector<std::string> names = paneNames(view);
   std::vector<Column> columns;
-  for (size_t i = 0; i < view.panes(); ++i)
-    columns.push_back({fmt::format("{}: {}", char('A' + int(i)), names[i]), view.picture(i)});
+  for (size_t i = 0; i < view.panes(); ++i) {
+    const std::string letter = view.hasScene() ? fmt::format("{}: ", char('A' + int(i))) : "";
+    columns.push_back({letter + names[i], view.picture(i)});
+  }
   if (view.reference().hasImage())
     columns.push_back(
         {fmt::format("reference, {} spp", view.reference().spp()), &view.reference().mean()});
@@ -120,7 +122,9 @@ std::map<std::string, std::string> captureWords(const LiveView& view) {
         const auto found = other.find(key);
         return found != other.end() && found->second == value;
       });
-      words[isCommon ? key : fmt::format("{}.{}", char('A' + int(i)), key)] = value;
+      const std::string pane =
+          view.hasScene() ? std::string(1, char('A' + int(i))) : std::to_string(i + 1);
+      words[isCommon ? key : fmt::format("{}.{}", pane, key)] = value;
     }
   }
   words["kind"] = "capture";

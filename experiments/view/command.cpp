@@ -182,11 +182,12 @@ ViewCommand commandOf(Members& members) {
   if (name == "save") return SaveSession{members.has("name") ? members.text("name") : ""};
   if (name == "measure") return Measure{members.has("name") ? members.text("name") : ""};
   if (name == "cancel") return CancelMeasure{};
-  if (name == "picture") return SavePicture{members.whole("image", 0, kMostPanes)};
+  if (name == "picture") return SavePicture{members.whole("image", 0, kMostImages)};
+  if (name == "table") return ShowTable{members.text("name")};
   const std::vector<std::string> names = {
       "set",   "parameter", "camera", "resolution", "transport", "light",   "material",
       "layer", "probe",     "pause",  "look",       "adaptive",  "restart", "copy",
-      "undo",  "redo",      "save",   "measure",    "cancel",    "picture"};
+      "undo",  "redo",      "save",   "measure",    "cancel",    "picture", "table"};
   failUsage(fmt::format("command: '{}' is unknown (known: {}){}", name, fmt::join(names, ", "),
                         didYouMean(name, names)));
 }

@@ -22,11 +22,13 @@
 //   save        name?                saves the settings as a suite
 //   measure     name?                saves the suite and starts `restlab run` on it
 //   cancel                           ends the running measurement
-//   picture     image                saves the image as it was rendered, an EXR
+//   picture     image                saves the image as it was rendered, an EXR; from the number of
+//                                    panes on: the reference
+//   table       name                 shows another table of a folder of results
 //
-// Panes are numbered from 0; the image after the last pane is the reference. The parser only checks
-// that numbers are finite and bounded and that texts are short. Names that a method or a scene does
-// not know are refused when the command is run.
+// Panes are numbered from 0. The parser only checks that numbers are finite and bounded and that
+// texts are short. Names that a method or a scene does not know are refused when the command is
+// run.
 #pragma once
 
 #include <array>
@@ -100,13 +102,19 @@ struct CancelMeasure {};
 struct SavePicture {
   uint32_t image = 0;
 };
+struct ShowTable {
+  std::string name;
+};
 
 using ViewCommand =
     std::variant<SetSetting, SetParameter, MoveCamera, Resize, SetTransport, SetLight, SetMaterial,
                  ShowLayer, Probe, Pause, Look, AdaptMotion, Restart, CopyMethod, Undo, Redo,
-                 SaveSession, Measure, CancelMeasure, SavePicture>;
+                 SaveSession, Measure, CancelMeasure, SavePicture, ShowTable>;
 
+// Panes of methods.
 constexpr uint32_t kMostPanes = 2;
+// Images of files that a page shows without a scene, besides their reference.
+constexpr uint32_t kMostImages = 64;
 
 // Throws Error (badUsage) with one line: the mistake and what would be right.
 ViewCommand parseViewCommand(const std::string& text);

@@ -55,14 +55,11 @@ ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<Session
 
 ViewSettings settingsOf(const ViewImages& images) {
   ViewSettings settings;
-  const FileImage& first = images.list.front();
-  for (uint32_t i = 0; i < kMostPanes; ++i) {
+  for (const FileImage& one : images.list) {
     PaneSettings& pane = settings.panes.emplace_back();
-    pane.config.width = first.image.width;
-    pane.config.height = first.image.height;
-    const bool isReference = i >= images.list.size() && images.reference;
-    pane.source = isReference ? kReferenceSource
-                              : images.list[std::min<size_t>(i, images.list.size() - 1)].name;
+    pane.config.width = one.image.width;
+    pane.config.height = one.image.height;
+    pane.source = one.name;
   }
   return settings;
 }
@@ -109,6 +106,7 @@ void LiveView::apply(const ViewCommand& command) {
       std::holds_alternative<CancelMeasure>(command) ||
       std::holds_alternative<SavePicture>(command))
     return;
+  if (const auto* table = std::get_if<ShowTable>(&command)) return showTable(table->name);
   if (std::holds_alternative<Restart>(command)) return restart();
   const ViewSettings before = settings_;
   if (std::holds_alternative<Undo>(command)) {
@@ -221,6 +219,17 @@ bool LiveView::refineReference(const StopCheck& isStopped) {
 
 void LiveView::takeKeptReference() {
   if (reference_.takeKept()) beginEpoch(false);
+}
+
+void LiveView::showTable(const std::string& name) {
+  if (images_.folder.empty()) failUsage("table: no folder of results is shown, which has tables");
+  if (name.empty()) failUsage("table: the name is empty");
+  if (name == images_.table) return;
+  images_ = readResultsImages(images_.folder, name, images_.anyReference);
+  settings_ = first_ = settingsOf(images_);
+  panes_ = std::vector<Pane>(settings_.panes.size());
+  reference_.show(*images_.reference);
+  beginEpoch(true);
 }
 
 std::vector<std::string> LiveView::sources() const {
@@ -391,10 +400,6 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
 
 // Does everything that may throw first: new sessions, then changes that a kept session may refuse.
 void LiveView::become(ViewSettings next) {
-  if (!hasScene()) {
-    settings_ = std::move(next);
-    return beginEpoch(false);
-  }
   // Keep the current seeds: an undone step must not repeat an old run.
   for (size_t i = 0; i < panes_.size(); ++i)
     next.panes[i].config.seed = settings_.panes[i].config.seed;
@@ -460,7 +465,6 @@ void LiveView::become(ViewSettings next) {
 }
 
 void LiveView::giveOwnSeed(size_t pane) {
-  if (!hasScene()) return;
   uint32_t& seed = settings_.panes[pane].config.seed;
   const auto isTaken = [&] {
     for (size_t i = 0; i < panes_.size(); ++i)

@@ -24,7 +24,7 @@ class LiveView {
   // panes can show besides, of the picture set here.
   LiveView(const PreparedScene& prepared, ViewSettings settings, const ReferenceStore& store,
            ViewImages images = {});
-  // Shows only images, with their reference if they have one; renders nothing.
+  // Shows only images, a pane for each, with their reference if they have one; renders nothing.
   LiveView(ViewImages images, ViewSettings settings);
   // Uses the scene's camera and light.
   LiveView(const PreparedScene& prepared, const std::vector<SessionConfig>& panes,
@@ -61,6 +61,9 @@ class LiveView {
   bool refineReference(const StopCheck& isStopped = {});
   // Takes a longer reference that another program has stored meanwhile; the numbers begin anew.
   void takeKeptReference();
+  // Shows another table of the folder of results. Throws Error, as readResultsImages() does, and
+  // changes nothing; (badUsage) if no folder of results is shown.
+  void showTable(const std::string& name);
   // Stores the reference for other programs.
   void keepReference() { reference_.keep(); }
 
@@ -176,9 +179,9 @@ class LiveView {
   PreparedScene edited_;        // with the materials that are set and the light that was loaded
   PreparedScene prepared_;      // with the light that is shown
   std::vector<SceneFileMaterial> fileMaterials_;
-  const ViewImages images_;
+  ViewImages images_;
   ViewSettings settings_;
-  const ViewSettings first_;  // settings for which the images were made
+  ViewSettings first_;  // settings for which the images were made
   ViewHistory history_;
   std::vector<Pane> panes_;
   LiveReference reference_;
@@ -191,7 +194,7 @@ class LiveView {
 
 // Settings of panes with default names filled in, the scene's camera and its light.
 ViewSettings settingsOf(const PreparedScene& prepared, const std::vector<SessionConfig>& panes);
-// Shows the first two images, or the only one beside its reference.
+// A pane for each image.
 ViewSettings settingsOf(const ViewImages& images);
 
 }  // namespace restlab

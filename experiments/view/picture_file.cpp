@@ -88,8 +88,9 @@ std::string pictureName(const LiveView& view, size_t image) {
   const std::string scene =
       view.hasScene() ? view.loaded().scene->source().name : std::string("image");
   const std::string name =
-      isPane ? fmt::format("{}-{}", char('A' + int(image)), paneNames(view)[image])
-             : std::string(kReferenceSource);
+      !isPane           ? std::string(kReferenceSource)
+      : view.hasScene() ? fmt::format("{}-{}", char('A' + int(image)), paneNames(view)[image])
+                        : paneNames(view)[image];
   return safeFileName(fmt::format("{}-{}", scene, name)) + ".exr";
 }
 

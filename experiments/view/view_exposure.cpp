@@ -69,4 +69,15 @@ double exposureOf(const LiveView& view) {
   return first != nullptr ? exposureOfNoise(*first) : 1.0;
 }
 
+bool isNothingLit(const LiveView& view) {
+  std::vector<const Image*> pictures;
+  for (size_t i = 0; i < view.panes(); ++i) pictures.push_back(view.picture(i));
+  if (view.reference().hasImage()) pictures.push_back(&view.reference().mean());
+  std::erase(pictures, nullptr);
+  return !pictures.empty() && std::all_of(pictures.begin(), pictures.end(), [](const Image* one) {
+    return std::all_of(one->pixels.begin(), one->pixels.end(),
+                       [](const glm::vec3& pixel) { return pixel == glm::vec3(0.0f); });
+  });
+}
+
 }  // namespace restlab

@@ -9,6 +9,10 @@ namespace restlab {
 // pane's last frame; 1 if there is neither.
 double exposureOf(const LiveView& view);
 
+// True if there is a picture, and each pixel of all of them is black: the panes' and the
+// reference's.
+bool isNothingLit(const LiveView& view);
+
 // Estimates previewExposure() of the noise-free picture. With few samples most pixels are black and
 // the others far too bright: the average is over means of 8x8 blocks. Clipping is judged on single
 // pixels and on 2x2 means: a block at a lamp's edge would be as bright as the lamp.

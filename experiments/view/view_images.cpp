@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
+#include "experiments/runner/base/files.h"
 #include "experiments/runner/base/image_file.h"
+#include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/beside_reference.h"
+#include "experiments/view/command.h"
+#include "experiments/view/results_record.h"
 
 namespace restlab {
 
@@ -55,9 +61,49 @@ void requireOneScene(const ViewImages& images) {
     requireOfReference(one.file.string(), one.metadata, reference, images.reference->metadata);
 }
 
+// Milliseconds of a picture that `render` made.
+std::optional<double> timeOf(const std::map<std::string, std::string>& metadata) {
+  const auto kind = metadata.find("kind"), time = metadata.find("render_time_s");
+  if (kind == metadata.end() || kind->second != "image" || time == metadata.end()) return {};
+  const double seconds = std::strtod(time->second.c_str(), nullptr);
+  return seconds > 0.0 ? std::optional(1000.0 * seconds) : std::nullopt;
+}
+
 void takeReference(const fs::path& file, ViewImages& images) {
   images.reference = readReference(file);
   images.referenceFile = file;
+}
+
+// Returns `found` in the order of `wanted`; names that it lacks stand at the end.
+std::vector<std::string> inOrderOf(const std::vector<std::string>& wanted,
+                                   std::vector<std::string> found) {
+  const auto rank = [&](const std::string& name) {
+    return std::find(wanted.begin(), wanted.end(), name) - wanted.begin();
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  return found;
+}
+
+RecordedTable recordOf(const fs::path& folder, const std::string& label) {
+  try {
+    for (RecordedTable& table : recordedTables(folder, label))
+      if (table.label == label) return std::move(table);
+  } catch (const std::exception& error) {
+    logWarning(fmt::format(
+        "{}; methods and tables stand in the order of their names, without times", error.what()));
+  }
+  return {};
+}
+
+std::vector<std::string> recordedLabels(const fs::path& folder) {
+  std::vector<std::string> labels;
+  try {
+    for (const RecordedTable& table : recordedTables(folder)) labels.push_back(table.label);
+  } catch (const std::exception&) {
+    labels.clear();  // recordOf() says so
+  }
+  return labels;
 }
 
 }  // namespace
@@ -72,6 +118,11 @@ ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& re
                           bool looksForReference, bool anyReference) {
   if (files.empty()) failUsage("no image is named");
   ViewImages images;
+  if (files.size() > kMostImages) {
+    failUsage(fmt::format("{} images are named, and a page shows at most {}; name fewer",
+                          files.size(), kMostImages));
+  }
+  images.anyReference = anyReference;
   images.title = files.front().filename().string();
   if (files.size() > 1) images.title += fmt::format(" and {} more", files.size() - 1);
   if (!reference.empty()) takeReference(reference, images);
@@ -82,25 +133,32 @@ ViewImages readViewImages(const std::vector<fs::path>& files, const fs::path& re
       takeReference(file, images);
       continue;
     }
-    images.list.push_back(
-        {freeName(images, file), file, std::move(read.layers.at("")), std::move(read.metadata)});
+    images.list.push_back({freeName(images, file),
+                           file,
+                           std::move(read.layers.at("")),
+                           std::move(read.metadata),
+                           {}});
+    images.list.back().ms = timeOf(images.list.back().metadata);
   }
   requireOneSize(images);
+  const Image& first = images.list.front().image;
+  requireMemory(fmt::format("{} images for a page", images.list.size() + 1), first.width,
+                first.height, (images.list.size() + 1) * sizeof(glm::vec3));
   if (images.reference) warnOfNoReference(images.referenceFile.string(), *images.reference);
   if (images.reference && !anyReference) requireOneScene(images);
   return images;
 }
 
 std::vector<std::string> tablesOfResults(const fs::path& folder) {
-  std::vector<std::string> tables;
+  std::vector<std::string> found;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", error)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() == ".exr" && stem.ends_with(kReferenceEnd))
-      tables.push_back(stem.substr(0, stem.size() - std::string(kReferenceEnd).size()));
+      found.push_back(stem.substr(0, stem.size() - std::string(kReferenceEnd).size()));
   }
-  std::sort(tables.begin(), tables.end());
-  return tables;
+  std::sort(found.begin(), found.end());
+  return found.empty() ? found : inOrderOf(recordedLabels(folder), found);
 }
 
 ViewImages readResultsImages(const fs::path& folder, const std::string& table, bool anyReference) {
@@ -111,7 +169,7 @@ ViewImages readResultsImages(const fs::path& folder, const std::string& table, b
   }
   const std::string label = table.empty() ? tables.front() : table;
   if (std::find(tables.begin(), tables.end(), label) == tables.end()) {
-    failUsage(fmt::format("--table {}: {} has no such table (it has: {}){}", label, folder.string(),
+    failUsage(fmt::format("table {}: {} has no such table (it has: {}){}", label, folder.string(),
                           fmt::join(tables, ", "), didYouMean(label, tables)));
   }
   // Take the longest table name that fits: one table's name may begin with another's.
@@ -122,21 +180,37 @@ ViewImages readResultsImages(const fs::path& folder, const std::string& table, b
     return longest;
   };
   const fs::path reference = folder / "images" / (label + kReferenceEnd + ".exr");
-  std::vector<fs::path> files;
+  std::vector<std::string> found, recorded;  // names behind the table's in those of the files
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images")) {
     const fs::path& file = entry.path();
-    if (file.extension() == ".exr" && tableOf(file.stem().string()) == label && file != reference)
-      files.push_back(file);
+    const std::string stem = file.stem().string();
+    if (file.extension() == ".exr" && tableOf(stem) == label && file != reference)
+      found.push_back(stem.substr(label.size() + 1));
   }
-  if (files.empty()) {
+  if (found.empty()) {
     failInput(fmt::format("{}: has no image of a method beside its reference", reference.string()));
   }
-  std::sort(files.begin(), files.end());
+  std::sort(found.begin(), found.end());
+  const RecordedTable record = recordOf(folder, label);
+  for (const std::string& method : record.methods) recorded.push_back(safeFileName(method));
+  found = inOrderOf(recorded, found);
+  std::vector<fs::path> files;
+  for (const std::string& name : found)
+    files.push_back(folder / "images" / fmt::format("{}-{}.exr", label, name));
   ViewImages images = readViewImages(files, reference, true, anyReference);
-  images.title = fmt::format("{}: {}", folder.filename().string(), label);
-  for (FileImage& one : images.list) {
-    const std::string name = one.file.stem().string().substr(label.size() + 1);
-    if (images.find(name) == nullptr && name != kReferenceSource) one.name = name;
+  images.title = fs::absolute(folder).lexically_normal().filename().string();
+  if (images.title.empty())  // a slash at the end
+    images.title = fs::absolute(folder).lexically_normal().parent_path().filename().string();
+  images.folder = folder;
+  images.table = label;
+  images.tables = tables;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const auto method = std::find(recorded.begin(), recorded.end(), found[i]);
+    const std::string name =
+        method == recorded.end() ? found[i] : record.methods[size_t(method - recorded.begin())];
+    if (images.find(name) == nullptr && name != kReferenceSource) images.list[i].name = name;
+    const auto ms = record.msOf.find(name);
+    if (ms != record.msOf.end()) images.list[i].ms = ms->second;
   }
   return images;
 }

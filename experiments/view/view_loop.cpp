@@ -410,6 +410,10 @@ void ViewLoop::showStanding(bool isUrgent) {
     header.slot = i;
     header.frame = uint32_t(view_.pictureCount(i));
     header.epoch = view_.epochOf(i);
+    if (!view_.hasScene()) {
+      sender_.showOnce(header, *picture);
+      continue;
+    }
     Standing& shown = shownStanding_[i];
     const bool isNew = shown.epoch != view_.epoch();
     const bool isOther = shown.count != header.frame || (isStill() && sender_.isRounded(i));
@@ -430,7 +434,11 @@ void ViewLoop::showReference(bool isUrgent) {
   header.slot = kReferenceSlot;
   header.frame = uint32_t(reference.spp());
   header.epoch = view_.epoch();
-  sender_.show(header, reference.mean(), isStill());
+  if (view_.hasScene()) {
+    sender_.show(header, reference.mean(), isStill());
+  } else {
+    sender_.showOnce(header, reference.mean());
+  }
   shownReference_ = now;
   referenceShown_ = Clock::now();
   if (isStanding()) tellNumbers();
@@ -456,7 +464,9 @@ void ViewLoop::showTev() {
     shownTev_[slot] = now;
   };
   for (uint32_t i = 0; i < view_.panes(); ++i) {
-    show(i, fmt::format("restlab {}", char('A' + int(i))),
+    show(i,
+         "restlab " + (view_.hasScene() ? std::string(1, char('A' + int(i)))
+                                        : view_.settings().panes[i].source),
          view_.picture(i) != nullptr ? view_.pictureCount(i) : 0,
          [&]() -> const Image& { return *view_.picture(i); });
   }

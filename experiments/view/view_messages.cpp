@@ -224,6 +224,7 @@ double factorOf(const LightFactors& lights, const std::string& name) {
 Json paneNumbers(const LiveView& view, size_t i) {
   const RunningError& error = view.error(i);
   if (!view.renders(i)) {
+    const FileImage* image = view.images().find(view.settings().panes[i].source);
     return {{"frame", 0},
             {"epoch", view.begun(i)},
             {"age", 0},
@@ -233,7 +234,7 @@ Json paneNumbers(const LiveView& view, size_t i) {
             {"relmse", intervalJson(error.relmse())},
             {"energy", intervalJson(error.energyRatio())},
             {"last_mse", nullptr},
-            {"ms", nullptr},
+            {"ms", image != nullptr && image->ms ? Json(*image->ms) : Json(nullptr)},
             {"passes", Json::array()},
             {"rays", nullptr},
             {"bytes", nullptr},
@@ -282,6 +283,7 @@ std::string helloText(const ViewFacts& facts, const LiveView& view) {
                  {"has_scene", view.hasScene()},
                  {"has_reference", view.hasScene() || view.images().reference.has_value()},
                  {"sources", view.sources()},
+                 {"tables", view.images().tables},
                  {"integrators", integratorsJson()},
                  {"caches", cachesJson()},
                  {"backends", backendsJson()},
@@ -290,6 +292,7 @@ std::string helloText(const ViewFacts& facts, const LiveView& view) {
                  {"settings", settings},
                  {"faults", faults},
                  {"threads", facts.threads},
+                 {"warnings", facts.warnings},
                  {"version", buildInfo().version},
                  {"exposure", exposureOf(view)}});
 }
@@ -330,6 +333,8 @@ std::string stateText(const LiveView& view, const LoopState& loop) {
                  {"materials", view.hasScene() ? materialsJson(view) : Json::array()},
                  {"paused", loop.isPaused},
                  {"adaptive", loop.isAdaptive},
+                 {"table", view.images().table},
+                 {"exposure", view.hasScene() ? Json(nullptr) : Json(exposureOf(view))},
                  {"can_undo", history.canUndo()},
                  {"can_redo", history.canRedo()},
                  {"undo_text", history.undoText()},
@@ -357,6 +362,7 @@ std::string numbersText(const LiveView& view, const Transport& transport, double
                  {"age", age.value_or(0)},
                  {"newest_frames", RunningError::kNewest},
                  {"panes", panes},
+                 {"nothing_lit", isNothingLit(view)},
                  {"reference", referenceJson},
                  {"transport",
                   {{"width", size.width},

@@ -1,8 +1,8 @@
 // Messages of the viewer to pages: one JSON object per message, {"say": NAME, ...}.
 //
-//   hello    the scene and everything to choose from; the first message
+//   hello    the scene, everything to choose from, warnings of the start; the first message
 //   state    the settings, after each change and after hello
-//   numbers  errors, times, rays and health of the last frames
+//   numbers  whether nothing is lit, errors, times, rays and health of the last frames
 //   probe    what a pane keeps for a pixel
 //   error    why a command was refused
 //   said     a notice
@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/view/image_message.h"
 #include "experiments/view/live_view.h"
@@ -26,7 +27,8 @@ namespace restlab {
 struct ViewFacts {
   SceneRequest request;
   int threads = 1;
-  std::filesystem::path program = {};  // program that `run`s sessions; empty: this one
+  std::filesystem::path program = {};      // program that `run`s sessions; empty: this one
+  std::vector<std::string> warnings = {};  // of the start; few and short
 };
 
 // Format and rate of the images that go to pages.

@@ -58,6 +58,19 @@ void ViewSender::show(ImageHeader header, const Image& image, bool isExact) {
     if (unseen_.count(page) == 0) server_.sendNewest(page, header.slot, bytes);
 }
 
+void ViewSender::showOnce(ImageHeader header, const Image& image) {
+  const Version version{header.epoch, header.frame};
+  std::shared_ptr<const Bytes> bytes;
+  for (const ClientId page : pages_) {
+    if (unseen_.count(page) > 0) continue;
+    const auto [sent, isFirst] = standing_[page].try_emplace(header.slot, version);
+    if (!isFirst && sent->second == version) continue;
+    sent->second = version;
+    if (!bytes) bytes = std::make_shared<const Bytes>(imageMessage(header, image));
+    server_.sendNewest(page, header.slot, bytes);
+  }
+}
+
 bool ViewSender::isRounded(uint32_t slot) const {
   const auto found = formats_.find(slot);
   return found != formats_.end() && found->second == PixelFormat::halves;

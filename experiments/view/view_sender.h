@@ -7,14 +7,16 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "experiments/view/view_messages.h"
 #include "experiments/view/view_queue.h"
 
 namespace restlab {
 
-// Slots of images: panes are 0 and 1, the layers over them kFirstLayerSlot + pane.
-constexpr uint32_t kReferenceSlot = 2, kFirstLayerSlot = 16;
+// Slots of images: a pane or an image of a file has its index, the layer over a pane
+// kFirstLayerSlot + pane. The page has the same numbers.
+constexpr uint32_t kReferenceSlot = kMostImages, kFirstLayerSlot = 2 * kMostImages;
 
 class ViewSender {
  public:
@@ -31,6 +33,7 @@ class ViewSender {
     pages_.erase(page);
     unseen_.erase(page);
     panes_.erase(page);
+    standing_.erase(page);
   }
   // Hides or shows a page: a page in the background gets no numbers and no images. `panes`: those
   // that it shows, as bits.
@@ -47,6 +50,9 @@ class ViewSender {
   void tellProgress(const std::string& text) { tellNewest(kProgressSlot, text, false); }
   // Sends to all visible pages. `isExact`: as floats, whatever the size.
   void show(ImageHeader header, const Image& image, bool isExact);
+  // Sends an image that stands still, exact, to the visible pages that have not got it: slot, epoch
+  // and frame say which one it is. The pages share one copy.
+  void showOnce(ImageHeader header, const Image& image);
 
   size_t bytesUnread(ClientId page) const { return server_.bytesUnread(page); }
   void setReport(std::string html) { server_.setReport(std::move(html)); }
@@ -60,9 +66,12 @@ class ViewSender {
   static constexpr uint32_t kStateSlot = 1000, kNumbersSlot = 1001, kProgressSlot = 1002;
   void tellNewest(uint32_t slot, const std::string& text, bool isForUnseen);
 
+  using Version = std::pair<uint64_t, uint32_t>;  // epoch and frame
+
   std::set<ClientId> pages_, unseen_;
-  std::map<ClientId, uint64_t> panes_;       // of pages that show some panes only
-  std::map<uint32_t, PixelFormat> formats_;  // by slot
+  std::map<ClientId, uint64_t> panes_;                        // of pages that show some panes only
+  std::map<ClientId, std::map<uint32_t, Version>> standing_;  // what pages got, by slot
+  std::map<uint32_t, PixelFormat> formats_;                   // by slot
   std::chrono::steady_clock::time_point measured_ = std::chrono::steady_clock::now();
   uint64_t measuredBytes_ = 0;
   double megabytesPerSecond_ = 0.0;

@@ -217,6 +217,14 @@ std::string sourceOf(const ConfigTable& table, const char* key, const ViewImages
 }
 
 void readView(const ConfigTable& table, bool anyReference, ViewStart& start) {
+  if (table.has("results")) {
+    const std::string results = table.getString("results", ""), of = table.getString("table", "");
+    if (start.prepared.scene) table.fail("results", "is for a session without a scene");
+    if (table.has("images")) table.fail("images", "'results' has the images");
+    start.images = readResultsImages(results, of, anyReference);
+    start.settings = settingsOf(start.images);
+    return table.finish();
+  }
   const std::vector<std::string> files = table.getStrings("images");
   const std::string reference = table.getString("reference", "");
   const bool hasScene = start.prepared.scene != nullptr;
@@ -237,7 +245,8 @@ void readView(const ConfigTable& table, bool anyReference, ViewStart& start) {
       table.fail(kSourceKeys[i], "without a scene there is no method to show");
     if (!hasScene && source == kReferenceSource && !start.images.reference)
       table.fail(kSourceKeys[i], "there is no 'reference'");
-    start.settings.panes[i].source = source;
+    // Older files without a scene chose two images; all of them are shown.
+    if (hasScene) start.settings.panes[i].source = source;
   }
   table.finish();
 }
@@ -249,11 +258,15 @@ std::string viewToml(const LiveView& view) {
   if (images.list.empty() && std::all_of(panes.begin(), panes.end(), isMethod)) return "";
   std::string text = "\n[view]\n";
   const auto absolute = [](const fs::path& file) { return quoted(fs::absolute(file).string()); };
+  if (!images.folder.empty()) {
+    return text +
+           fmt::format("results = {}\ntable = {}\n", absolute(images.folder), quoted(images.table));
+  }
   std::vector<std::string> files;
   for (const FileImage& one : images.list) files.push_back(absolute(one.file));
   if (!files.empty()) text += fmt::format("images = [{}]\n", fmt::join(files, ", "));
   if (images.reference) text += fmt::format("reference = {}\n", absolute(images.referenceFile));
-  for (size_t i = 0; i < panes.size(); ++i) {
+  for (size_t i = 0; view.hasScene() && i < panes.size(); ++i) {
     const FileImage* image = images.find(panes[i].source);
     text += fmt::format("{} = {}\n", kSourceKeys[i],
                         image                ? absolute(image->file)

@@ -19,7 +19,8 @@ struct ViewStart {
 
 // Reads a suite: the first scene, the first two rendered methods, the camera and the light of the
 // measured frame. With one method the other pane gets the average of path's frames. The table
-// [view] says what panes show instead of methods; a file with only this table shows only images.
+// [view] says what panes show instead of methods; a file with only this table shows only images, by
+// name or those of a folder of results.
 // Throws Error with the place of a mistake; for images as readViewImages() does.
 ViewStart startOfSuite(const std::filesystem::path& file, bool anyReference = false);
 

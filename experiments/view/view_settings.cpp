@@ -217,7 +217,7 @@ struct Change {
     pane.source = from.source;
     SessionConfig config = from.config;
     config.seed = pane.config.seed;
-    if (choices.scene != nullptr) setMethod(pane, std::move(config));
+    setMethod(pane, std::move(config));
     text = fmt::format("{}: as {}", letterOf(command.to), letterOf(command.from));
   }
 
@@ -236,6 +236,7 @@ struct Target {
   std::string operator()(const SetTransport& c) { return "transport " + c.name; }
   std::string operator()(const SetLight& c) { return "light " + c.name; }
   std::string operator()(const SetMaterial& c) { return "material " + c.name + "." + c.key; }
+  std::string operator()(const ShowTable&) { return "table"; }
   template <class Other>
   std::string operator()(const Other&) {
     return "";
@@ -299,19 +300,9 @@ LightFactors ownLights(const LightFactors& absolute, const Scene& scene) {
   return lights;
 }
 
-namespace {
-
-// True if the command is possible with images only: without a method, light or camera.
-bool isOfImages(const ViewCommand& command) {
-  const auto* set = std::get_if<SetSetting>(&command);
-  return (set != nullptr && set->key == "source") || std::holds_alternative<CopyMethod>(command);
-}
-
-}  // namespace
-
 ViewChange changedBy(const ViewCommand& command, const ViewSettings& settings,
                      const ViewChoices& choices) {
-  if (choices.scene == nullptr && !isOfImages(command))
+  if (choices.scene == nullptr)
     failUsage("images of files are shown, and nothing is rendered: there is nothing to change");
   ViewChange result{settings, targetOf(command), ""};
   Change change{result.settings, choices};

@@ -92,7 +92,7 @@ ReportModel cell(double value, double spread) {
 
 ReportModel columns() {
   return list(
-      {{{"key", "time"}, {"title", "time per frame"}, {"unit", "ms"}, {"better", "lower"}},
+      {{{"key", "time_ms"}, {"title", "time per frame"}, {"unit", "ms"}, {"better", "lower"}},
        {{"key", "mse"}, {"title", "MSE"}, {"better", "lower"}, {"help", "mean squared error"}},
        {{"key", "ratio"}, {"title", "MSE ratio"}, {"better", "higher"}},
        {{"key", "energy"}, {"title", "energy"}}});
@@ -102,24 +102,24 @@ ReportModel rows() {
   return list(
       {{{"method", "path"},
         {"cells",
-         {{"time", cell(70.0, 1.0)}, {"mse", cell(0.9, 0.1)}, {"energy", cell(1.01, 0.02)}}}},
+         {{"time_ms", cell(70.0, 1.0)}, {"mse", cell(0.9, 0.1)}, {"energy", cell(1.01, 0.02)}}}},
        {{"method", "gi biased"},
         {"counts", false},
         {"flags", list({"energy ratio 0.93 [0.92, 0.94] is outside 0.95..1.05"})},
         {"cells",
-         {{"time", cell(8.0, 0.5)},
+         {{"time_ms", cell(8.0, 0.5)},
           {"mse", cell(0.01, 0.001)},
           {"ratio", cell(90.0, 4.0)},
           {"energy", cell(0.93, 0.01)}}}},
        {{"method", "gi unbiased"},
         {"flags", list({"a remark"})},
         {"cells",
-         {{"time", cell(86.0, 1.0)},
+         {{"time_ms", cell(86.0, 1.0)},
           {"mse", {{"value", 0.03}, {"lo", "-inf"}, {"hi", "inf"}}},
           {"ratio", cell(30.0, 2.0)},
           {"energy", cell(0.999, 0.01)}}}},
        {{"method", "broken"},
-        {"cells", {{"time", cell(100.0, 1.0)}, {"mse", {{"value", "nan"}}}}}}});
+        {"cells", {{"time_ms", cell(100.0, 1.0)}, {"mse", {{"value", "nan"}}}}}}});
 }
 
 ReportModel plots() {

@@ -208,7 +208,8 @@ TEST_F(ViewerTest, DragMovesThePicture) {
 TEST_F(ViewerTest, WipeFollowsTheDivider) {
   press("w", "KeyW");
   EXPECT_EQ(state("mode"), "wipe");
-  EXPECT_EQ(texts(".tag"), (std::vector<std::string>{"1  reference", "2  path"}));
+  EXPECT_EQ(texts(".tag"), (std::vector<std::string>{"1  reference", "2  path  MSE 0.9  70 ms"}))
+      << "the row's error and time";
   const auto colourOf = [](const Image& image, uint32_t x, uint32_t y) {
     const glm::vec3& p = image.at(x, y);
     return std::vector<int>{srgb(2.0f * p.x), srgb(2.0f * p.y), srgb(2.0f * p.z)};

@@ -51,7 +51,8 @@ TEST(ViewCommands, AreReadWithTheirValues) {
   EXPECT_EQ(read<SaveSession>(R"({"do":"save","name":"mine"})").name, "mine");
   EXPECT_EQ(read<Measure>(R"({"do":"measure","name":"mine"})").name, "mine");
   read<CancelMeasure>(R"({"do":"cancel"})");
-  EXPECT_EQ(read<SavePicture>(R"({"do":"picture","image":2})").image, 2u);
+  EXPECT_EQ(read<SavePicture>(R"({"do":"picture","image":64})").image, 64u);
+  EXPECT_EQ(read<ShowTable>(R"({"do":"table","name":"a"})").name, "a");
 }
 
 TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {
@@ -81,6 +82,8 @@ TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {
       {R"({"do":"copy","from":0})", "copy: 'to' is missing"},
       {R"({"do":"copy","from":0,"to":2})", "'to' must be a whole number from 0 to 1"},
       {R"({"do":"undo","steps":2})", "undo: 'steps' is unknown"},
+      {R"({"do":"picture","image":65})", "'image' must be a whole number from 0 to 64"},
+      {R"({"do":"table"})", "table: 'name' is missing"},
       {R"({"do":"light","name":"a","factor":-1})", "'factor' must be a number from 0"},
       {R"({"do":"layer","pane":0,"name":")" + std::string(300, 'x') + "\"}", "at most 256 bytes"},
   };

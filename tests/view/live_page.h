@@ -29,6 +29,8 @@ class LivePageTest : public ViewLoopTest {
   void serve(const std::vector<SessionConfig>& panes);
   // Serves view_ as it is.
   void serveView();
+  // Serves images, opens the page and waits until all of them are there.
+  void openFiles(ViewImages images);
   // Opens the address and waits until all three images are there.
   void open(Browser& browser);
   // Serves smallPanes() and opens the page.

@@ -3,6 +3,7 @@
 #include "experiments/view/view_page.h"
 
 #include <algorithm>
+#include <numeric>
 #include "tests/view/live_page.h"
 
 namespace restlab::view_test {
@@ -102,6 +103,16 @@ void LivePageTest::serveView() {
       ADD_FAILURE() << "the loop has ended: " << error.what();
     }
   });
+}
+
+void LivePageTest::openFiles(ViewImages images) {
+  std::vector<int> all(images.list.size() + (images.reference ? 1 : 0));
+  std::iota(all.begin(), all.end(), 0);
+  const ViewSettings settings = settingsOf(images);
+  view_.emplace(std::move(images), settings);
+  serveView();
+  browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
+  waitUntilShown(*browser_, all);
 }
 
 void LivePageTest::open(Browser& browser) {

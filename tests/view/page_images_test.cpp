@@ -27,13 +27,22 @@ class PageImagesTest : public LivePageTest {
                {{{"", striped(*name == 'a' ? 0.25f : 0.5f)}}, {}});
     }
     writeExr(folder() / "r.exr", {{{"", striped(0.75f)}}, {{"spp", "16"}}});
-    ViewImages images = readViewImages({folder() / "a.exr", folder() / "b.exr"},
-                                       hasReference ? folder() / "r.exr" : "");
-    const ViewSettings settings = settingsOf(images);
-    view_.emplace(std::move(images), settings);
-    serveView();
-    browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
-    waitUntilShown(*browser_, hasReference ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1});
+    openFiles(readViewImages({folder() / "a.exr", folder() / "b.exr"},
+                             hasReference ? folder() / "r.exr" : ""));
+  }
+  // Opens a folder of results: the table t has m1 to m5, t-2 has m1 and m2, without a record.
+  void openResults() {
+    std::filesystem::create_directory(folder() / "images");
+    const auto write = [&](const std::string& name, uint32_t width, float value) {
+      writeExr(folder() / "images" / (name + ".exr"),
+               {{{"", Image(width, 6, glm::vec3(value))}}, {}});
+    };
+    for (int i = 1; i <= 5; ++i) write("t-m" + std::to_string(i), 20, float(i) / 8.0f);
+    write("t-reference", 20, 6.0f / 8.0f);
+    write("t-2-m1", 10, 1.5f);
+    write("t-2-m2", 10, 2.0f);
+    write("t-2-reference", 10, 3.0f);
+    openFiles(readResultsImages(folder(), ""));
   }
   std::string panel(const std::string& tab) {
     return page(
@@ -45,8 +54,7 @@ class PageImagesTest : public LivePageTest {
 
 TEST_F(PageImagesTest, ShowsThemAsItShowsMethods) {
   openImages();
-  EXPECT_EQ(page("return viewer.images.map(image => image.name);"),
-            (Json{"A: a", "B: b", "reference"}));
+  EXPECT_EQ(page("return viewer.images.map(image => image.name);"), (Json{"a", "b", "reference"}));
   for (int i : {0, 1}) {
     const double expected = mse(striped(i == 0 ? 0.25f : 0.5f), striped(0.75f));
     const double shown = page(fmt::format(
@@ -94,10 +102,11 @@ TEST_F(PageImagesTest, SaysWhereThereIsNothingToChange) {
 // Images have no times, no counts and no interval to wait for.
 TEST_F(PageImagesTest, NumbersAreErrorsAlone) {
   openImages();
-  const std::string rows =
-      "return Array.from(document.querySelectorAll('.numbers-table [data-row]')).filter(row => "
-      "row.offsetParent).map(row => row.dataset.row);";
-  EXPECT_EQ(page(rows), (Json{"mse", "relmse", "energy"}));
+  EXPECT_EQ(page("return Array.from(document.querySelectorAll('.numbers-table th')).filter(one => "
+                 "one.offsetParent).map(one => one.textContent);"),
+            (Json{"image", "MSE", "relMSE", "energy", "a", "b"}))
+      << "no file says a time";
+  EXPECT_EQ(text("[data-number=energy]").size(), text("tr:last-child [data-number=energy]").size());
   page("page.last.busy = 9; page.numbers.show(page.last);");
   const std::string box = page("return document.querySelector('.numbers-box').innerText;");
   for (const char* word : {"yet", "counted", "load", "quiet", "spp,  ", "/spp"})
@@ -117,26 +126,43 @@ TEST_F(PageImagesTest, NumbersOfAnImageBesideAMethod) {
   EXPECT_GT(page("return document.querySelector('[data-row=ms]').offsetHeight;"), 0);
 }
 
-TEST_F(PageImagesTest, ChoiceIsKeptInTheAddress) {
-  openImages();
-  click("[data-setting=source]");
-  browser_->press("Escape", "Escape");
-  page(R"(const select = document.querySelector('[data-setting=source]');
-    select.value = 'reference';
-    select.dispatchEvent(new Event('change'));
-    await until(() => viewer.images[0].name === 'A: reference');
-    await until(() => decodeURIComponent(location.hash).includes('"source":"reference"'));
+// All images have keys, tables a choice; the chosen method stays.
+TEST_F(PageImagesTest, OfResultsAreShownByKeysAndTables) {
+  openResults();
+  EXPECT_EQ(page("return viewer.images.map(image => image.name);"),
+            (Json{"m1", "m2", "m3", "m4", "m5", "reference"}));
+  press("s");
+  for (int i = 1; i <= 6; ++i) {
+    press(std::to_string(i));
+    const Json shown = page(
+        "await frame(); await frame(); return [viewer.stage.views.length, "
+        "viewer.images[viewer.stage.views[0].image].data[0]];");
+    EXPECT_EQ(shown[0], 1);
+    EXPECT_FLOAT_EQ(shown[1], float(i) / 8.0f) << i;
+  }
+  press("2");
+  press("PageDown");
+  page("await until(() => viewer.images.length === 3 && viewer.images.every(one => one.data));");
+  EXPECT_EQ(
+      page("return [page.state.table, document.querySelector('.live-header select').value, "
+           "viewer.images[viewer.state.current].name, viewer.images[viewer.state.compare].name, "
+           "viewer.images.map(one => one.data[0]), viewer.camera.width, "
+           "document.querySelectorAll('table.images tbody tr').length, "
+           "document.querySelectorAll('.numbers-table tbody tr').length];"),
+      (Json{"t-2", "t-2", "m2", "reference", {1.5, 2.0, 3.0}, 10, 3, 2}));
+  page(R"(await until(() => decodeURIComponent(location.hash).includes('"table":"t-2"'));
     window.kept = location.hash;
-    send({do: 'undo'});
-    await until(() => viewer.images[0].name === 'A: a');
-    await until(() => location.hash !== window.kept);
+    const select = document.querySelector('.live-header select');
+    select.value = 't';
+    select.dispatchEvent(new Event('change'));
+    await until(() => page.state.table === 't' && location.hash !== window.kept);
     location.hash = window.kept;
-    await until(() => viewer.images[0].name === 'A: reference');)");
+    await until(() => page.state.table === 't-2');)");
 }
 
 TEST_F(PageImagesTest, CompareWithEachOtherWithoutAReference) {
   openImages(false);
-  EXPECT_EQ(page("return viewer.images.map(image => image.name);"), (Json{"A: a", "B: b"}));
+  EXPECT_EQ(page("return viewer.images.map(image => image.name);"), (Json{"a", "b"}));
   const double expected = mse(striped(0.5f), striped(0.25f));
   const double shown = page(
       "viewer.set({error: 'squared', compare: 0}); return viewer.painter.plane('squared', "

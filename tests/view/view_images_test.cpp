@@ -42,6 +42,14 @@ class ViewImagesTest : public ViewLoopTest {
     return readViewImages({folder() / "a.exr", folder() / "r.exr", folder() / "b.exr"});
   }
 
+  // Writes the images of two tables, without a record of the run.
+  void writeTables() {
+    for (const char* name : {"box-all-reference", "box-all-path", "box-all-gi-2"})
+      write(std::string("images/") + name + ".exr", imageOf(8, 6, 1.0f));
+    for (const char* name : {"box-all-2-reference", "box-all-2-path"})
+      write(std::string("images/") + name + ".exr", imageOf(4, 3, 1.0f));
+  }
+
   void showImages(ViewImages images) {
     const ViewSettings settings = settingsOf(images);
     view_.emplace(std::move(images), settings);
@@ -77,14 +85,6 @@ TEST_F(ViewImagesTest, AreMeasuredAgainstTheirReference) {
     ASSERT_EQ(view.error(i).frames(), 1u);
     EXPECT_DOUBLE_EQ(view.error(i).mse().value, mseAgainstHalves(expected, half0, half1));
   }
-  view.apply(shows(0, "reference"));
-  EXPECT_EQ(view.picture(0)->pixels, imageOf(24, 16, 1.0f).pixels);
-  EXPECT_EQ(view.error(0).frames(), 0u) << "it has no error against itself";
-  EXPECT_EQ(view.error(1).frames(), 1u);
-  view.apply(Undo{});
-  EXPECT_EQ(view.settings().panes[0].source, "a");
-  view.apply(CopyMethod{1, 0});
-  EXPECT_EQ(view.settings().panes[0].source, "b");
   view.renderFrames();
   EXPECT_EQ(view.age(0), 0u) << "nothing renders";
 }
@@ -93,14 +93,14 @@ TEST_F(ViewImagesTest, RefuseWhatNeedsAMethodInOneLine) {
   LiveView view(small(), settingsOf(small()));
   for (const ViewCommand& command : std::vector<ViewCommand>{
            MoveCamera{}, Resize{8, 8}, SetLight{"all", 2.0}, SetSetting{0, "integrator", "path"},
-           SetParameter{0, "confidence_cap", ParameterValue(int64_t(3))}, ShowLayer{0, "depth"}}) {
+           SetParameter{0, "confidence_cap", ParameterValue(int64_t(3))}, ShowLayer{0, "depth"},
+           CopyMethod{1, 0}, shows(0, "reference")}) {
     const std::string line = lineOf([&] { view.apply(command); }, ExitCode::badUsage);
     EXPECT_NE(line.find("nothing to change"), std::string::npos) << line;
   }
   EXPECT_NE(lineOf([&] { view.apply(Restart{}); }, ExitCode::badUsage).find("no pane"),
             std::string::npos);
-  EXPECT_NE(lineOf([&] { view.apply(shows(0, "referense")); }, ExitCode::badUsage)
-                .find("did you mean 'reference'"),
+  EXPECT_NE(lineOf([&] { view.apply(ShowTable{"a"}); }, ExitCode::badUsage).find("no folder"),
             std::string::npos);
   EXPECT_FALSE(view.history().canUndo());
 }
@@ -172,11 +172,59 @@ TEST_F(ViewImagesTest, BesideMethodsAreOfTheirScene) {
             std::string::npos);
 }
 
+TEST_F(ViewImagesTest, AreBounded) {
+  const fs::path a = write("a.exr", imageOf(8, 6, 1.0f));
+  const std::string line = lineOf(
+      [&] { readViewImages(std::vector<fs::path>(kMostImages + 1, a)); }, ExitCode::badUsage);
+  EXPECT_NE(line.find("at most 64"), std::string::npos) << line;
+  const ViewImages most = readViewImages(std::vector<fs::path>(kMostImages, a));
+  LiveView view(most, settingsOf(most));
+  EXPECT_EQ(view.panes(), kMostImages);
+  EXPECT_LE(kReferenceSlot + 1, kFirstLayerSlot);
+}
+
+TEST_F(ViewImagesTest, ATableIsShownOnAllPages) {
+  writeTables();
+  showImages(readResultsImages(folder(), ""));
+  Page one(url()), other(url());
+  EXPECT_EQ(one.waitFor("hello")["tables"], (Json{"box-all", "box-all-2"}));
+  EXPECT_EQ(one.waitFor("state")["table"], "box-all");
+  other.waitFor("numbers");
+  one.say({{"do", "table"}, {"name", "box-all-2"}});
+  for (Page* page : {&one, &other}) {
+    const Json state =
+        page->waitFor("state", [](const Json& s) { return s["table"] == "box-all-2"; });
+    ASSERT_EQ(state["panes"].size(), 1u);
+    EXPECT_EQ(state["panes"][0]["source"], "path");
+    EXPECT_EQ(state["width"], 4);
+    EXPECT_GT(state["exposure"], 0.0);
+    for (const uint32_t slot : {0u, kReferenceSlot}) {
+      page->waitForImage([&](const ShownImage& image) {
+        return image.header.slot == slot && image.header.epoch == state["epoch"] &&
+               image.header.width == 4 && image.header.format == PixelFormat::floats;
+      });
+    }
+  }
+  for (const auto& [name, says] : {std::pair("box-al", "did you mean 'box-all'"),
+                                   {"../box-all", "no such table"},
+                                   {"", "the name is empty"}}) {
+    one.say({{"do", "table"}, {"name", name}});
+    const std::string line = one.waitFor("error")["text"];
+    EXPECT_NE(line.find(says), std::string::npos) << line;
+  }
+  // A file that is gone leaves the view as it is.
+  fs::remove(folder() / "images/box-all-path.exr");
+  std::ofstream(folder() / "images/box-all-path.exr") << "no image";
+  one.say({{"do", "table"}, {"name", "box-all"}});
+  EXPECT_NE(one.waitFor("error")["text"].get<std::string>().find("box-all-path.exr"),
+            std::string::npos);
+  stop();
+  EXPECT_EQ(view_->images().table, "box-all-2");
+  EXPECT_EQ(view_->panes(), 1u);
+}
+
 TEST_F(ViewImagesTest, OfResultsAreThoseOfOneTable) {
-  const Image image = imageOf(8, 6, 1.0f);
-  for (const char* name : {"box-all-reference", "box-all-path", "box-all-gi-2",
-                           "box-all-2-reference", "box-all-2-path"})
-    write(std::string("images/") + name + ".exr", image, "image");
+  writeTables();
   const auto namesOf = [&](const std::string& table) {
     std::vector<std::string> names;
     for (const FileImage& one : readResultsImages(folder(), table).list) names.push_back(one.name);
@@ -194,13 +242,24 @@ TEST_F(ViewImagesTest, OfResultsAreThoseOfOneTable) {
 TEST_F(ViewImagesTest, SessionsKeepTheChoice) {
   {
     LiveView view(small(), settingsOf(small()));
-    view.apply(shows(0, "reference"));
-    view.apply(shows(1, "a"));
-    std::ofstream(folder() / "images.toml") << sessionToml(facts_, view, "a-name");
-    const ViewStart start = startOfSuite(folder() / "images.toml");
-    EXPECT_EQ(start.prepared.scene, nullptr);
+    const std::string toml = sessionToml(facts_, view, "a-name");
+    // Older files said which two of the images were shown.
+    for (const char* older : {"", "a = \"reference\"\n"}) {
+      std::ofstream(folder() / "images.toml") << toml + older;
+      const ViewStart start = startOfSuite(folder() / "images.toml");
+      EXPECT_EQ(start.prepared.scene, nullptr);
+      EXPECT_TRUE(isSame(start.settings, view.settings()));
+      EXPECT_TRUE(start.images.reference.has_value());
+    }
+  }
+  {
+    writeTables();
+    const ViewImages images = readResultsImages(folder(), "box-all-2");
+    const LiveView view(images, settingsOf(images));
+    std::ofstream(folder() / "results.toml") << sessionToml(facts_, view, "a-name");
+    const ViewStart start = startOfSuite(folder() / "results.toml");
+    EXPECT_EQ(start.images.table, "box-all-2");
     EXPECT_TRUE(isSame(start.settings, view.settings()));
-    EXPECT_TRUE(start.images.reference.has_value());
   }
   ViewImages images = readViewImages({write("c.exr", imageOf(24, 16, 0.3f))});
   LiveView view(cornellBox(), settingsOf(cornellBox(), {smallPane("restir_gi"), smallPane("path")}),
@@ -244,6 +303,9 @@ TEST_F(ViewImagesTest, StandBesideMethods) {
   EXPECT_EQ(view.error(1).frames(), 0u) << "it is of another light";
   view.apply(Undo{});
   EXPECT_EQ(view.epochOf(1), view.epoch());
+  EXPECT_NE(lineOf([&] { view.apply(shows(1, "referense")); }, ExitCode::badUsage)
+                .find("did you mean 'reference'"),
+            std::string::npos);
   view.apply(shows(1, ""));
   EXPECT_EQ(view.picture(1), nullptr) << "what it showed is no frame of the method";
   view.renderFrames();
@@ -266,18 +328,16 @@ TEST_F(ViewImagesTest, GoToPagesAsImagesDo) {
   EXPECT_EQ(numbers["panes"][0]["ms"], nullptr);
   EXPECT_EQ(numbers["reference"]["spp"], 64);
   ASSERT_EQ(page.images().size(), 3u);
-  page.say({{"do", "set"}, {"pane", 0}, {"key", "source"}, {"value", "reference"}});
-  const Json state = page.waitFor("state");
-  EXPECT_EQ(state["panes"][0]["source"], "reference");
-  page.waitForImage([&](const ShownImage& image) {
-    return image.header.slot == 0 && image.header.epoch == state["epoch"];
-  });
-  page.waitForImage([&](const ShownImage& image) {
-    return image.header.slot == 2 && image.header.epoch == state["epoch"];
-  });
-  EXPECT_EQ(page.images().at(0).pixels, page.images().at(2).pixels);
+  EXPECT_EQ(page.images().count(kReferenceSlot), 1u);
+  // Images that stand still are sent once: a page that opens gets all of them, the others nothing.
+  const uint64_t bytes = page.bytes();
+  Page late(url());
+  late.waitFor("numbers");
+  ASSERT_EQ(late.images().size(), 3u);
+  EXPECT_EQ(late.images().at(1).pixels, page.images().at(1).pixels);
   page.say({{"do", "probe"}, {"pane", 0}, {"x", 1}, {"y", 1}});
   EXPECT_NE(page.waitFor("error")["text"].get<std::string>().find("no method"), std::string::npos);
+  EXPECT_LT(page.bytes() - bytes, page.images().at(0).pixels.size()) << "texts alone";
 }
 
 TEST_F(ViewImagesTest, APaneShowsTheReferenceAsItConverges) {

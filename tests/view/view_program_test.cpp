@@ -275,7 +275,8 @@ TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
   write("suite.toml",
         "name = \"s\"\nscenes = [\"cornell-box\"]\n[settings]\nwidth = 16\nheight = 12\n"
         "max_bounces = 2\nruns = 2\nwarmup_frames = 1\nframes = 1\n[reference]\nspp = 4\n"
-        "[[method]]\nintegrator = \"path\"\n[[method]]\nintegrator = \"restir_gi\"\n");
+        "[[method]]\nname = \"the new: one\"\nintegrator = \"restir_gi\"\n"
+        "[[method]]\nname = \"a path\"\nintegrator = \"path\"\n");
   const ProgramResult made = run("run suite.toml");
   ASSERT_EQ(made.code, 0) << made.err;
   const std::string images = "results/s/images/";
@@ -293,10 +294,17 @@ TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
       const Json hello = page.waitFor("hello");
       EXPECT_EQ(hello["has_scene"], false);
       EXPECT_EQ(hello["has_reference"], true);
+      Json names = Json::array();
+      for (const Json& pane : page.waitFor("state")["panes"]) names.push_back(pane["source"]);
       const Json numbers = page.waitFor("numbers");
       EXPECT_GT(numbers["panes"][0]["mse"]["value"], 0.0);
       EXPECT_EQ(numbers["reference"]["spp"], 4);
       EXPECT_EQ(page.images().size(), 3u);
+      if (arguments.size() == 1) {
+        // As in the suite, with the times of the run.
+        EXPECT_EQ(names, (Json{"the new: one", "a path"}));
+        EXPECT_GT(numbers["panes"][1]["ms"], 0.0);
+      }
       if (!std::filesystem::exists(path("session.toml"))) {
         page.say({{"do", "save"}});
         page.waitFor("saved");
@@ -305,6 +313,16 @@ TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
     });
     expectEnded(result);
   }
+  // Without a record they stand in the order of their names, and the page says why.
+  write("results/s/run.json", "{}");
+  expectEnded(view(SIGINT, {path("results/s").string()}, [&](Page& page) {
+    const Json warnings = page.waitFor("hello")["warnings"];
+    EXPECT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_NE(warnings.dump().find("run.json: "), std::string::npos) << warnings;
+    EXPECT_EQ(page.waitFor("state")["panes"][0]["source"], "a-path");
+    page.waitFor("numbers");
+    return true;
+  }));
   const ProgramResult captured = run("view results/s --capture a.png");
   EXPECT_EQ(captured.code, 0) << captured.err;
   EXPECT_TRUE(std::filesystem::exists(path("a.png")));

@@ -1,9 +1,12 @@
 // Table below a viewer: one row per image, with its key, its mean error and its values at the pixel
 // under the pointer.
+const PARTS = [{part: 'mean', digits: 3}, ...['r', 'g', 'b'].map(part => ({part, digits: 6})),
+               {part: 'here', digits: 3}];
+
 class ImageList {
   // `whole`: the images are not crops.
   constructor(images, whole, camera, actions) {
-    Object.assign(this, {images, whole, camera});
+    Object.assign(this, {images, whole, camera, actions});
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
                       make('th', {scope: 'col'}, 'image'),
                       make('th', {scope: 'col'}, 'compare with'),
@@ -12,11 +15,17 @@ class ImageList {
                       make('th', {scope: 'col', class: 'num'}, 'G'),
                       make('th', {scope: 'col', class: 'num'}, 'B'),
                       this.hereTitle = make('th', {scope: 'col', class: 'num'}));
-    this.rows = images.map((image, i) => this.makeRow(image, i, actions));
-    const table = make('table', {class: 'images'}, make('thead', {}, head),
-                       make('tbody', {}, ...this.rows.map(row => row.element)));
+    this.body = make('tbody', {});
+    this.build();
+    const table = make('table', {class: 'images'}, make('thead', {}, head), this.body);
     this.element = make('div', {class: 'scroll', role: 'region', tabindex: 0,
                                 'aria-label': 'Images and their values'}, table);
+  }
+
+  // Makes the rows; called again for other images.
+  build() {
+    this.rows = this.images.map((image, i) => this.makeRow(image, i, this.actions));
+    this.body.replaceChildren(...this.rows.map(row => row.element));
   }
 
   makeRow(image, i, actions) {
@@ -28,8 +37,7 @@ class ImageList {
                                     title: `errors against this image (Shift+${i + 1})`});
     compare.addEventListener('click', () => actions.compare(i));
     const note = make('span', {class: 'bad'});
-    const values = ['mean', 'r', 'g', 'b', 'here'].map(
-        part => make('td', {class: 'num', 'data-part': part}));
+    const values = PARTS.map(({part}) => make('td', {class: 'num', 'data-part': part}));
     const element = make('tr', {}, make('td', {}, i < 9 ? make('kbd', {}, String(i + 1)) : ''),
                          make('th', {scope: 'row'}, name, note), make('td', {}, compare),
                          ...values);
@@ -44,6 +52,15 @@ class ImageList {
     this.meanTitle.title = metric && `mean over the pixels here, against ${
         this.images[state.compare].name}`;
     setText(this.hereTitle, kind === 'none' ? '' : 'error here');
+    const cells = this.images.map((image, i) => {
+      const plane = kind !== 'none' && i !== state.compare &&
+          areComparable(image, this.images[state.compare]) ? painter.plane(kind, i) : null;
+      const at = pixel && image.data ? this.camera.indexIn(image, pixel) : -1;
+      return [plane ? plane.mean : null,
+              ...[0, 1, 2].map(c => at < 0 ? null : image.data[3 * at + c]),
+              plane && at >= 0 ? plane.values[at] : null];
+    });
+    const texts = PARTS.map(({digits}, k) => alignedTexts(cells.map(row => row[k]), digits));
     this.rows.forEach((row, i) => {
       const image = this.images[i];
       row.element.classList.toggle('current', i === state.current);
@@ -51,15 +68,11 @@ class ImageList {
       row.compare.setAttribute('aria-pressed', i === state.compare);
       setText(row.name, image.name);
       setText(row.note, image.nonfinite.length ? ` ${image.nonfinite.length} non-finite` : '');
-      const plane = kind !== 'none' && i !== state.compare &&
-          areComparable(image, this.images[state.compare]) ? painter.plane(kind, i) : null;
-      const at = pixel && image.data ? this.camera.indexIn(image, pixel) : -1;
-      const texts = [
-        plane ? shortNumber(plane.mean) : '',
-        ...[0, 1, 2].map(c => at < 0 ? '' : exactFloat(image.data[3 * at + c])),
-        plane && at >= 0 ? shortNumber(plane.values[at]) : ''
-      ];
-      row.values.forEach((cell, k) => setText(cell, texts[k]));
+      row.values.forEach((cell, k) => {
+        setText(cell, texts[k][i]);
+        const whole = cells[i][k] === null ? '' : exactFloat(cells[i][k]);
+        if (cell.title !== whole) cell.title = whole;
+      });
     });
   }
 }

@@ -5,7 +5,7 @@ async function openViewer(root) {
   const data = JSON.parse(document.getElementById(root.dataset.source).textContent);
   root.replaceChildren(make('p', {class: 'status'}, 'Unpacking the images \u2026'));
   const images = [];
-  for (const {name, role, pixels} of data.images) {
+  for (const {name, role, mse, ms, pixels} of data.images) {
     let values;
     try {
       const text = document.getElementById(pixels).textContent;
@@ -16,7 +16,7 @@ async function openViewer(root) {
       root.dataset.failed = 'true';
       throw error;
     }
-    images.push({name, role, width: data.width, height: data.height, data: values,
+    images.push({name, role, mse, ms, width: data.width, height: data.height, data: values,
                  nonfinite: nonfinitePixels(values), version: 1});
   }
   const viewer = new Viewer(root, data, images);

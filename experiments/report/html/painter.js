@@ -11,6 +11,14 @@ class Painter {
     this.onLost = () => {};
   }
 
+  // Drops everything that was made of the images; called for other images.
+  forget() {
+    this.cache.clear();
+    this.planes.clear();
+    this.range = new SteadyRange();
+    this.overlays.clear();
+  }
+
   // Factor on radiance.
   get factor() { return this.exposure * Math.pow(2, this.state.stops); }
 

@@ -88,22 +88,6 @@ class Viewer {
     return name + error;
   }
 
-  label(view) {
-    const error = view.isError ? ` \u2013 ${ERRORS[this.state.error].title}` : '';
-    const image = this.images[view.image];
-    return `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${this.age(image)}`;
-  }
-
-  // On a live page: whether the image was rendered before the last change of what it shows, is
-  // smaller while the camera moves, or is being rendered.
-  age(image) {
-    const isOld = image.data && image.epoch < image.since;
-    const isSmall = image.data && image.width !== this.camera.width;
-    return (isOld ? ' \u2013 before the change' : '') +
-        (isSmall ? ` \u2013 ${image.width}\u00d7${image.height}` : '') +
-        (image.progress ? ` \u2013 ${image.progress}` : '');
-  }
-
   // Schedules a drawing for the next frame; repeated calls are merged.
   redraw() {
     if (this.waiting) return;
@@ -151,9 +135,16 @@ class Viewer {
     const key = JSON.stringify(tags);
     if (this.tagKey === key) return;
     this.tagKey = key;
-    this.tags.replaceChildren(...tags.map(({text, ...attributes}) => {
-      return make('span', attributes, text);
+    this.tags.replaceChildren(...tags.map(({parts, ...attributes}) => {
+      return make('span', {...attributes, title: parts.join('  ')}, parts.join('  '));
     }));
+    tags.forEach(({parts}, k) => {
+      const element = this.tags.children[k];
+      element.textContent = fittingLabel(parts, text => {
+        element.textContent = text;
+        return element.scrollWidth <= element.clientWidth;
+      });
+    });
   }
 
   tag(view) {
@@ -164,7 +155,8 @@ class Viewer {
     const side = view.clip && left > 0 ? `right:${this.frame.clientWidth - right}px`
                                        : `left:${left}px`;
     return {
-      text: this.label(view), class: `tag${current ? ' current' : ''}${isNear ? ' faint' : ''}`,
+      parts: labelParts(this, view),
+      class: `tag${current ? ' current' : ''}${isNear ? ' faint' : ''}`,
       style: `top:${view.y}px;max-width:${Math.max(0, right - left)}px;${side}`
     };
   }

@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "core/base/control_characters.h"
 #include "core/base/error.h"
@@ -31,7 +34,23 @@ void say(const char* event, const char* prefix, const std::string& text) {
   }
 }
 
+std::mutex warningsMutex;
+std::vector<std::string> warnings;
+
+void keep(const std::string& text) {
+  const std::lock_guard lock(warningsMutex);
+  if (warnings.size() >= kKeptWarnings) return;
+  std::string kept = oneLine(text);
+  if (kept.size() > kKeptWarningBytes) kept = kept.substr(0, kKeptWarningBytes - 4) + " ...";
+  warnings.push_back(std::move(kept));
+}
+
 }  // namespace
+
+std::vector<std::string> keptWarnings() {
+  const std::lock_guard lock(warningsMutex);
+  return warnings;
+}
 
 void setEventLog(bool isOn) { isEventLog = isOn; }
 
@@ -54,7 +73,10 @@ void logInfo(const std::string& text) {
 void logDetail(const std::string& text) {
   if (level >= 1) say("detail", "", text);
 }
-void logWarning(const std::string& text) { say("warning", "warning: ", text); }
+void logWarning(const std::string& text) {
+  keep(text);
+  say("warning", "warning: ", text);
+}
 void logError(const std::string& text) { say("error", "error: ", text); }
 
 Progress::Progress(std::string label, uint64_t total, uint64_t already)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace restlab {
 
@@ -17,6 +18,11 @@ void logInfo(const std::string& line);     // normal
 void logDetail(const std::string& line);   // with -v
 void logWarning(const std::string& line);  // always, prefixed "warning: "
 void logError(const std::string& line);    // always, prefixed "error: "
+
+// Returns the first warnings of this program, at most kKeptWarnings, each in at most
+// kKeptWarningBytes. Thread-safe.
+std::vector<std::string> keptWarnings();
+constexpr size_t kKeptWarnings = 32, kKeptWarningBytes = 500;
 
 // Switches from text lines to one JSON object per line: "event" ("info", "detail", "warning",
 // "error", "progress", or as given to logEvent()), "utc" and further fields.

@@ -39,7 +39,9 @@ function saveScreenshot(viewer, name) {
   context.textBaseline = 'middle';
   for (const view of viewer.stage.views) {
     const [left, right] = view.clip || [view.x, view.x + view.width];
-    const text = viewer.label(view), width = context.measureText(text).width + 14;
+    const widthOf = text => context.measureText(text).width + 14;
+    const text = fittingLabel(labelParts(viewer, view), one => widthOf(one) <= right - left);
+    const width = widthOf(text);
     const x = view.clip && left > 0 ? right - width : left;
     context.fillStyle = 'rgba(0,0,0,0.62)';
     context.fillRect(x, view.y, width, 22);

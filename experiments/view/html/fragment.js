@@ -6,7 +6,8 @@ const VIEW_FIELDS = ['mode', 'current', 'compare', 'error', 'stops', 'tone', 'lo
 const FRAGMENT_INTERVAL_MS = 700;
 
 function stateForAddress(state, viewer, settings) {
-  const panes = state.panes.map(pane => {
+  // Without settings there are images of files, of which only a table can be chosen.
+  const panes = (settings.length ? state.panes : []).map(pane => {
     const kept = {layer: pane.layer || '', source: pane.source};
     for (const key of settings) kept[key] = pane[key];
     const changed = pane.parameters.filter(info => info.is_set);
@@ -22,7 +23,7 @@ function stateForAddress(state, viewer, settings) {
   return {panes, camera: state.camera, width: state.width, height: state.height,
           lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
           transport: Object.fromEntries(transport.map(({name, value}) => [name, value])),
-          paused: state.paused, view};
+          table: state.table, paused: state.paused, view};
 }
 
 const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
@@ -43,6 +44,9 @@ function readFragment(hash) {
 
 // Returns the commands that lead from `state` to the kept state.
 function commandsTowards(kept, state, settings) {
+  if (!settings.length) {
+    return kept.table && kept.table !== state.table ? [{do: 'table', name: kept.table}] : [];
+  }
   const commands = [];
   const differs = (a, b) => JSON.stringify(a) !== JSON.stringify(b);
   kept.panes.slice(0, state.panes.length).forEach((want, pane) => {

@@ -38,13 +38,21 @@ class Header {
     this.pause = button('pause', 'pause');
     this.cameraMode = button('camera-mode', 'camera');
     this.orbit = button('orbit', 'orbit');
+    // Without a scene nothing can be changed; the tables stand in that place.
+    const isOfFiles = !this.page.hello.has_scene;
+    this.table = this.page.hello.tables.length > 1 ? makeTableChoice(this.page) : null;
+    if (this.table) this.table.element.setAttribute('aria-label', 'table of the results');
     this.buttons.replaceChildren(
-        group('Changes', this.undo, this.redo),
-        group('Frames', this.pause, button('restart', 'restart')),
-        group('Camera', this.cameraMode, this.orbit),
+        ...(this.table ? [this.table.element] : []),
+        ...(isOfFiles ? [] : [
+          group('Changes', this.undo, this.redo),
+          group('Frames', this.pause, button('restart', 'restart')),
+          group('Camera', this.cameraMode, this.orbit)
+        ]),
         group('Files', button('save', 'save session'), button('measure', 'measure'),
               button('screenshot', 'PNG'), button('picture', 'EXR')),
-        group('Page', button('theme', 'light/dark')));
+        group('Page', button('theme', 'light/dark')), this.page.warnings.list.element,
+        this.page.messages.log.element);
     const {scene} = this.page.hello;
     this.title.textContent = this.title.title = scene.title || scene.name;
     document.title = `${scene.title || scene.name} \u2013 restlab view`;
@@ -57,6 +65,7 @@ class Header {
   }
 
   show(state) {
+    this.table?.show(state.table);
     this.undo.disabled = !state.can_undo;
     this.redo.disabled = !state.can_redo;
     const {commands} = this.page;

@@ -29,6 +29,8 @@ function makeLiveCommands(page) {
   const isOn = () => page.camera.isOn;
   // True if the arrow keys turn the camera.
   const isTurning = () => isOn() || page.camera.isOrbit;
+  const panes = page.hello.has_scene ? page.state.panes : [];
+  const hasTables = () => page.hello.tables.length > 1;
   const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
   const commands = [
     ...FLY_KEYS.map(([way, keys, title]) => ({
@@ -67,13 +69,20 @@ function makeLiveCommands(page) {
     {id: 'redo', keys: ['Z', 'Ctrl+Shift+z', 'Ctrl+y'], group: session, title: 'redo',
      when: () => page.state.can_redo, run: send({do: 'redo'})},
     {id: 'copy-ab', keys: [], group: session, title: 'copy the method of A to B',
-     when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 0, to: 1})},
+     when: () => panes.length > 1, run: send({do: 'copy', from: 0, to: 1})},
     {id: 'copy-ba', keys: [], group: session, title: 'copy the method of B to A',
-     when: () => page.state.panes.length > 1, run: send({do: 'copy', from: 1, to: 0})},
-    ...page.state.panes.flatMap((_, pane) => page.hello.sources.map(value => ({
+     when: () => panes.length > 1, run: send({do: 'copy', from: 1, to: 0})},
+    ...panes.flatMap((_, pane) => page.hello.sources.map(value => ({
          id: `show-${pane}-${value}`, keys: [], group: session,
          title: `${PANE_NAMES[pane]} shows ${sourceText(value)}`,
          run: send({do: 'set', pane, key: 'source', value})}))),
+    {id: 'previous-table', keys: ['PageUp'], group: 'Images', when: hasTables,
+     title: 'previous table of the results', run: () => stepTable(page, -1)},
+    {id: 'next-table', keys: ['PageDown'], group: 'Images', when: hasTables,
+     title: 'next table of the results', run: () => stepTable(page, 1)},
+    ...page.hello.tables.map(name => ({
+         id: `table-${name}`, keys: [], group: 'Images', title: `table ${name}`, when: hasTables,
+         run: send({do: 'table', name})})),
     {id: 'probe', keys: ['g'], group: session,
      title: 'probe the pixel under the pointer, or in the middle', run: () => page.probeHere()},
     {id: 'clear-probe', keys: ['G'], group: session, title: 'take the probe\'s marks away',

@@ -1,20 +1,26 @@
-// Page of a live session: a viewer of two panes and the reference, with panels beside it.
+// Page of a live session: a viewer of two panes and the reference, or of images of files, with
+// panels beside it.
 
-const REFERENCE_SLOT = 2, LAYER_SLOTS = 16;
+// Slots of images, as the program has them; a pane has its index.
+const REFERENCE_SLOT = 64, LAYER_SLOTS = 128;
 // Milliseconds after which a pane that has left the view stops rendering.
 const HIDE_DELAY_MS = 700;
 
 class LivePage {
   constructor() {
+    this.early = [];
     this.messages = new Messages();
+    this.warnings = new Warnings();
     this.header = new Header(this);
     this.root = make('div', {class: 'viewer', role: 'group', 'aria-label': 'Images'});
     this.badge = make('p', {class: 'camera-badge', role: 'status', hidden: ''});
     this.left = make('main', {class: 'live-left'}, this.root);
     this.side = make('aside', {class: 'live-side', 'aria-label': 'Panels'});
+    this.handle = new SideHandle(this.side);
     startTheme();
     document.body.className = 'live';
-    document.body.append(this.header.element, this.left, this.side, this.messages.element);
+    document.body.append(this.header.element, this.left, this.handle.element, this.side,
+                         this.messages.element);
     this.root.append(make('p', {class: 'status'}, 'Waiting for the program \u2026'));
     this.kept = readFragment(location.hash);
     document.addEventListener('visibilitychange', () => this.look());
@@ -80,15 +86,23 @@ class LivePage {
     if (document.hidden) this.look();
     if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
     this.hello = hello;
+    this.warnings.greet(hello);
   }
 
   show(state) {
     if (!this.hello) return;
-    const isFirst = !this.viewer;
-    const count = state.panes.length + (this.hello.has_reference ? 1 : 0);
-    if (!isFirst && count !== this.viewer.images.length) location.reload();
+    const isFirst = !this.viewer, isOfFiles = !this.hello.has_scene;
+    const names = imageNames(state, this.hello);
+    const areOthers = () => String(names) !== String(this.viewer.images.map(({name}) => name));
+    if (!isFirst && !isOfFiles && names.length !== this.viewer.images.length) location.reload();
     this.root.dataset.epoch = state.epoch;
-    if (isFirst) this.build(state);
+    if (isFirst) {
+      this.build(state);
+    } else if (isOfFiles && (state.epoch !== this.viewer.data.epoch || areOthers())) {
+      replaceImages(this.viewer, imagesOf(state, this.hello));
+      this.viewer.setExposure(state.exposure);
+    }
+    this.viewer.data.epoch = state.epoch;
     this.viewer.images.forEach((image, i) => {
       const pane = image.role === 'reference' ? null : state.panes[i];
       image.pictureEpoch = state.picture_epoch;
@@ -96,11 +110,11 @@ class LivePage {
       image.progress = null;
     });
     state.panes.forEach((pane, i) => {
-      this.viewer.setImage(i, {name: `${PANE_NAMES[i]}: ${paneName(pane, this.hello)}`});
+      this.viewer.setImage(i, {name: names[i]});
       const hasLayer = pane.layer && !pane.source;
       if (!hasLayer && this.viewer.images[i].overlay) this.viewer.setImage(i, {overlay: null});
     });
-    this.numbers.showNames(this.viewer.images.map(image => image.name));
+    this.numbers.showNames(names);
     const {camera} = this.viewer;
     if (!isFirst && (camera.width !== state.width || camera.height !== state.height)) {
       this.probe.clear();  // the probed pixel is elsewhere now
@@ -113,6 +127,10 @@ class LivePage {
     this.probe.showAge();
     this.viewer.set({});
     if (isFirst) this.begin(state);
+    const early = this.early;
+    this.early = [];
+    for (const head of early) this.showImage(head);
+    if (isOfFiles && this.last) this.showNumbers(this.last);
   }
 
   // Shows the error and resets the controls to the actual state.
@@ -121,33 +139,33 @@ class LivePage {
     if (!this.viewer) return;
     this.methods.show(this.state, this.hello);
     this.scene.show(this.state);
+    this.header.show(this.state);
   }
 
   build(state) {
     this.commands = [...makeLiveCommands(this), ...VIEWER_COMMANDS];
-    const {width, height} = state, count = state.panes.length;
-    const image = (name, role) => ({name, role, width, height, data: null, nonfinite: [],
-                                    version: 0, overlay: null, marks: null});
-    const images = state.panes.map((_, i) => image(PANE_NAMES[i], 'method'));
-    if (this.hello.has_reference) images.push(image('reference', 'reference'));
+    const isOfFiles = !this.hello.has_scene, count = isOfFiles ? 0 : state.panes.length;
     const {bounds} = this.hello.scene;
     this.camera = new CameraControl(this, bounds || {lo: [-1, -1, -1], hi: [1, 1, 1]});
     const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
                   arranged: images => this.arranged(images),
                   idle: () => this.idleText()};
-    this.viewer = this.root.viewer = new Viewer(this.root, data, images);
-    this.viewer.frame.append(this.badge);
+    this.viewer = this.root.viewer =
+        new Viewer(this.root, data, imagesOf(state, this.hello));
+    this.viewer.frame.append(this.badge, this.warnings.note);
     this.bookmarks = new Bookmarks(this, this.hello.scene.name);
     this.recorder = new PathRecorder(this);
-    this.methods = new MethodPanel(this, count);
+    this.methods = isOfFiles ? new FilesPanel() : new MethodPanel(this, count);
     this.scene = new ScenePanel(this, this.hello);
-    this.numbers = new NumbersPanel(count, this.hello.faults || []);
+    this.numbers = isOfFiles ? new FilesNumbers()
+                             : new NumbersPanel(count, this.hello.faults || []);
     this.plots = new PlotsPanel(count);
     this.measurement = new MeasurePanel(this);
     this.probe = new ProbePanel(this, count);
     this.tabs = new Tabs('Panels', [
-      ['methods', 'Methods', this.methods.element], ['scene', 'Scene', this.scene.element],
+      ['methods', isOfFiles ? 'Images' : 'Methods', this.methods.element],
+      ['scene', 'Scene', this.scene.element],
       ['plots', 'Plots', make('div', {}, this.measurement.element, this.plots.element)],
       ['probe', 'Probe', this.probe.element]
     ]);
@@ -160,7 +178,7 @@ class LivePage {
     for (const name of ['keydown', 'keyup']) {
       document.addEventListener(name, event => { this.camera.isFast = event.shiftKey; }, true);
     }
-    this.viewer.set({mode: 'side'});
+    this.viewer.set({mode: this.viewer.images.length > MOST_BESIDE ? 'single' : 'side'});
     this.showCameraMode();
   }
 
@@ -172,7 +190,7 @@ class LivePage {
     const isReload = navigation && navigation.type === 'reload';
     if (this.kept) {
       applyView(this.kept.view, this.viewer);
-      this.methods.opacity.value = this.viewer.state.opacity;
+      if (this.methods.opacity) this.methods.opacity.value = this.viewer.state.opacity;
     }
     if (this.kept && !isReload) {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
@@ -193,6 +211,11 @@ class LivePage {
   showImage(head) {
     if (!this.viewer) return;
     const {images} = this.viewer, {width, height} = head;
+    if (!this.hello.has_scene && head.epoch !== this.viewer.data.epoch) {
+      // Keeps images that are here before the state that tells of them.
+      if (head.epoch > this.viewer.data.epoch) this.early.push(head);
+      return;
+    }
     if (head.slot >= LAYER_SLOTS) {
       this.showLayer(head.slot - LAYER_SLOTS, head);
       return;
@@ -221,6 +244,13 @@ class LivePage {
   showNumbers(numbers) {
     if (!this.viewer) return;
     this.last = numbers;
+    // Those of another table wait for its state.
+    if (!this.hello.has_scene && numbers.epoch !== this.viewer.data.epoch) return;
+    this.warnings.follow(numbers);
+    numbers.panes.forEach(({mse, ms}, i) => {
+      Object.assign(this.viewer.images[i], {mse: mse?.value, ms});
+    });
+    this.viewer.redraw();
     this.numbers.show(numbers);
     this.plots.add(numbers);
     this.probe.follow(numbers);

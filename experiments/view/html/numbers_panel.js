@@ -1,28 +1,35 @@
 // Running numbers of both panes side by side, and the reference they are measured against.
 
-// The reference and images of files have no times and no counts.
-const showsMethod = pane => pane.ms !== null;
+// The reference and images of files have no counts.
+const showsMethod = pane => pane.rays !== null;
 const OF_FRAMES = ['mse_newest', 'relmse_newest', 'frames', 'ms', 'rays', 'bytes'];
 
-// [key, title, help, text(pane), {lo, hi} or nothing]
+// [key, title, help, text, number or interval of a pane, unit of the number]
 const NUMBER_ROWS = [
   ['mse', 'MSE', 'mean squared error of single frames against the reference: mean over the ' +
                  'window of frames; the interval is of eight batches of them', pane => pane.mse],
   ['mse_newest', 'newest', 'the same of the newest frames alone, in which a method does not warm ' +
-                           'up any more', pane => quantity(pane.mse_newest)],
+                           'up any more', pane => pane.mse_newest ?? null],
   ['relmse', 'relMSE', 'the same, relative to the reference squared', pane => pane.relmse],
   ['relmse_newest', 'newest', 'the same of the newest frames alone',
-   pane => quantity(pane.relmse_newest)],
+   pane => pane.relmse_newest ?? null],
   ['energy', 'energy', 'mean of the frames over mean of the reference; 1 is right',
    pane => pane.energy],
   ['frames', 'frame / of', 'frames of the history; frames in the window of the numbers above',
    pane => !showsMethod(pane) ? NOTHING
        : `${quantity(pane.frame)} / ${quantity(pane.frames_measured)}${pane.seen ? '' : ', hidden'}`],
   ['ms', 'time', 'of the last frame; while the camera moves frames are smaller',
-   pane => milliseconds(pane.ms) + (pane.moving ? ` at ${pane.width}\u00d7${pane.height}` : '')],
+   pane => pane.moving ? `${milliseconds(pane.ms)} at ${pane.width}\u00d7${pane.height}`
+       : pane.ms >= 1000 ? milliseconds(pane.ms) : pane.ms, ' ms'],
   ['rays', 'rays', 'rays of the last frame', pane => withPrefix(pane.rays, '')],
   ['bytes', 'memory', 'bytes that the method keeps', pane => bytesText(pane.bytes)]
 ];
+
+// Returns the number in what a row shows; null if it shows none.
+function numberOf(given) {
+  const number = given !== null && typeof given === 'object' ? given.value : given;
+  return typeof number === 'number' ? number : null;
+}
 
 class NumbersPanel {
   // `faults`: names of the health counts that must be 0; the other counts describe the method.
@@ -67,11 +74,12 @@ class NumbersPanel {
     for (const row of this.rows) {
       row.hidden = isNothing && [...OF_FRAMES, 'health'].includes(row.dataset.row);
     }
-    for (const [key, , , of] of NUMBER_ROWS) {
-      const values = panes.map(of);
+    for (const [key, , , of, unit = ''] of NUMBER_ROWS) {
+      const values = panes.map(of), known = values.map(numberOf).filter(one => one !== null);
+      const aligned = alignedFormat(known, key === 'energy' ? 4 : 3);
+      const format = number => aligned(number) + unit;
       this.cells.get(key).forEach((cell, i) => {
-        if (i >= values.length) return;
-        this.showCell(cell, values[i], key === 'energy' ? 4 : 3, showsMethod(panes[i]));
+        if (i < values.length) this.showCell(cell, values[i], format, showsMethod(panes[i]));
       });
     }
     for (const key of ['mse_newest', 'relmse_newest']) {
@@ -97,15 +105,21 @@ class NumbersPanel {
     this.transport.title = 'what goes to all pages; load average of the machine over its threads';
   }
 
-  showCell({value, interval}, given, digits, hasFrames) {
-    if (given === null || given === undefined) {
+  // `given`: null, a text, a number or one with an interval.
+  showCell({cell, value, interval}, given, format, hasFrames) {
+    const number = numberOf(given);
+    cell.title = number === null ? '' : String(number);
+    if (number !== null) {
+      const {lo, hi} = given, isKnown = Number.isFinite(lo) && Number.isFinite(hi);
+      setText(value, format(number));
+      if (isKnown) cell.title = `${number} [${lo}, ${hi}]`;
+      if (typeof given === 'object') {
+        setText(interval, isKnown ? `${format(lo)} \u2026 ${format(hi)}`
+                                  : hasFrames ? 'no interval yet' : '');
+      }
+    } else if (given === null || given === undefined) {
       setText(value, NOTHING);
       setText(interval, interval.textContent ? '\u00a0' : '');  // keeps the height of the cell
-    } else if (typeof given === 'object') {
-      setText(value, quantity(given.value, digits));
-      const isKnown = Number.isFinite(given.lo) && Number.isFinite(given.hi);
-      const ends = [given.lo, given.hi].map(end => quantity(end, digits));
-      setText(interval, isKnown ? ends.join(' \u2026 ') : hasFrames ? 'no interval yet' : '');
     } else {
       setText(value, given);
     }

@@ -36,6 +36,6 @@ class PlotsPanel {
     setText(this.mark, isNothing ? 'Nothing renders: there are no frames to plot.' : times > 0
         ? `Begun anew by a change (${times} so far); the pale curves are those before it.`
         : 'A change of a setting begins the curves anew.');
-    this.passes.show(this.numbers.panes);
+    if (!isNothing) this.passes.show(this.numbers.panes);
   }
 }
