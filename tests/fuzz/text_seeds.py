@@ -11,6 +11,8 @@ def commands():
     write("command", "read-parameter", json.dumps({"do": "parameter", "pane": 1, "name": "x", "value": 0.5}))
     write("command", "read-camera", json.dumps({"do": "camera", "to_world": camera, "yfov": 0.7}))
     write("command", "read-resolution", json.dumps({"do": "resolution", "width": 640, "height": 360}))
+    write("command", "read-look", json.dumps({"do": "look", "on": True, "panes": [0, 1]}))
+    write("command", "read-table", json.dumps({"do": "table", "name": "cornell-box-all"}))
     write("command", "unknown", json.dumps({"do": "open", "file": "/etc/passwd"}))
     write("command", "scaled-camera", json.dumps({"do": "camera", "to_world": [2] + camera[1:]}))
     write("command", "deep", "[" * 2000)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace restlab::report_test {
@@ -53,6 +54,8 @@ class Browser {
   const std::vector<std::string>& requests() const { return requests_; }
   // Errors and warnings of the console, and uncaught exceptions.
   const std::vector<std::string>& complaints() const { return complaints_; }
+  // Returns them and forgets them: a test has expected them.
+  std::vector<std::string> takeComplaints() { return std::exchange(complaints_, {}); }
 
  private:
   friend class BrowserProcess;

@@ -41,6 +41,11 @@ TEST(ViewCommands, AreReadWithTheirValues) {
   EXPECT_EQ(read<ShowLayer>(R"({"do":"layer","pane":0,"name":"age"})").name, "age");
   EXPECT_EQ(read<Probe>(R"({"do":"probe","pane":0,"x":3,"y":4})").y, 4u);
   EXPECT_FALSE(read<Pause>(R"({"do":"pause","on":false})").on);
+  EXPECT_EQ(read<Look>(R"({"do":"look","on":true})").panes, ~uint64_t(0));
+  EXPECT_EQ(read<Look>(R"({"do":"look","on":true,"panes":[0,2,63]})").panes,
+            uint64_t(5) | uint64_t(1) << 63);
+  EXPECT_EQ(read<Look>(R"({"do":"look","on":true,"panes":[]})").panes, 0u);
+  EXPECT_FALSE(read<AdaptMotion>(R"({"do":"adaptive","on":false})").on);
   read<Restart>(R"({"do":"restart"})");
   const auto copy = read<CopyMethod>(R"({"do":"copy","from":1,"to":0})");
   EXPECT_EQ(copy.from, 1u);
@@ -57,6 +62,9 @@ TEST(ViewCommands, AreReadWithTheirValues) {
 
 TEST(ViewCommands, ThatAreWrongAreSaidInOneLine) {
   const std::pair<std::string, const char*> cases[] = {
+      {R"({"do":"look","on":true,"panes":[64]})", "whole numbers from 0 to 63"},
+      {R"({"do":"look","on":true,"panes":[-1]})", "whole numbers from 0 to 63"},
+      {R"({"do":"look","on":true,"panes":2})", "must be a list"},
       {"", "must be a JSON object"},
       {"[]", "must be a JSON object"},
       {"{\"do\":\"pause\"", "must be a JSON object"},

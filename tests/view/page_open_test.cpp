@@ -1,6 +1,7 @@
 // Opening the live page: alone, twice at once, again; and the session that it saves.
 #include <fstream>
 
+#include "experiments/view/view_page.h"
 #include "experiments/view/view_session.h"
 #include "tests/view/live_page.h"
 
@@ -82,6 +83,26 @@ TEST_F(PageOpenTest, ReloadTakesNothingBack) {
   EXPECT_EQ(page("return page.state.panes[0].parameters.find("
                  "one => one.name === 'confidence_cap').value;"),
             9);
+}
+
+// Another viewer at the same port does not know the page's address.
+TEST_F(PageOpenTest, TellsAnotherProgramFromALostOne) {
+  open();
+  const std::string old = url();
+  const size_t port = old.find(':', 7) + 1;
+  stop();
+  loop_.reset();
+  ViewServerOptions options;
+  options.page = viewPage();
+  options.port = uint16_t(std::stoi(old.substr(port)));
+  loop_ = std::make_unique<ViewLoop>(*view_, facts_, options, folder());
+  page("await until(() => document.querySelector('.link').dataset.link === 'replaced');");
+  EXPECT_NE(text(".link").find("another viewer"), std::string::npos);
+  for (const std::string& complaint : browser_->takeComplaints()) {
+    EXPECT_TRUE(complaint.find("403") != std::string::npos ||
+                complaint.find("WebSocket") != std::string::npos)
+        << complaint;
+  }
 }
 
 TEST_F(PageOpenTest, SavesASessionThatASuiteParserTakes) {

@@ -313,7 +313,7 @@ Json randomCommand(std::mt19937& random) {
   const auto below = [&](size_t n) { return random() % n; };
   const auto pick = [&](const std::vector<std::string>& all) { return all[below(all.size())]; };
   const int pane = int(below(2));
-  switch (below(14)) {
+  switch (below(15)) {
     case 0:
       return {{"do", "set"},
               {"pane", pane},
@@ -355,6 +355,9 @@ Json randomCommand(std::mt19937& random) {
       return {{"do", "copy"}, {"from", pane}, {"to", below(3)}};
     case 12:
       return {{"do", pick({"undo", "redo", "dance", ""})}};
+    case 13:
+      return below(2) == 0 ? Json{{"do", "adaptive"}, {"on", below(4) > 0}}
+                           : Json{{"do", "look"}, {"on", below(4) > 0}, {"panes", {pane, below(70)}}};
     default:
       return below(2) == 0 ? Json::array() : Json{{"do", "camera"}, {"to_world", {1, 2}}};
   }
@@ -373,6 +376,7 @@ TEST_F(ViewLoopTest, LivesThroughRandomCommands) {
     }
   }
   page.say({{"do", "restart"}});
+  page.say({{"do", "look"}, {"on", true}});
   page.say({{"do", "pause"}, {"on", false}});
   page.waitFor("numbers", [](const Json& numbers) { return numbers["age"] > 3; });
 }
