@@ -78,7 +78,10 @@ void writeImages(std::ostream& out, const ReportModel& block, size_t index,
                       {"whole", crop.width == first.width && crop.height == first.height},
                       {"exposure", reportNumber(block, "exposure", 1.0)},
                       {"images", ReportModel::array()}};
+  const std::string opensOn = reportText(block, "opens_on");
   for (size_t i = 0; i < list.size(); ++i) {
+    const bool isThat = list[i]["role"] == "method" && reportText(list[i], "name") == opensOn;
+    if (isThat && !data.contains("first")) data["first"] = i;
     data["images"].push_back({{"name", cleanText(reportText(list[i], "name"))},
                               {"role", list[i]["role"]},
                               {"pixels", fmt::format("pixels-{}-{}", index, i)}});

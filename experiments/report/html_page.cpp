@@ -61,11 +61,7 @@ std::string reportHead(const ReportModel& model) {
   }
   for (const ReportModel& warning : reportList(model, "warnings"))
     out += paragraph("warning", warning.get<std::string>());
-  std::string notes;
-  for (const ReportModel& note : reportList(model, "notes")) {
-    notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));
-  }
-  if (!notes.empty()) out += fmt::format("<ul class=\"notes\">\n{}</ul>\n", notes);
+  out += noteList(reportList(model, "notes"));
   if (model["blocks"].size() > 1) out += contents(model["blocks"]);
   return out + "</header>\n";
 }

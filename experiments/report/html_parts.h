@@ -4,21 +4,33 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "experiments/report/report_model.h"
 
 namespace restlab::html {
 
-// Table of a block: sortable headings, the best of each column marked, rows that do not count
-// marked with the reason; below it the meaning of the columns. "" without columns.
+// First table of a block: sortable headings, the best of each column marked, rows that do not count
+// marked. Below it the columns that are equal in all rows, notes on rows, and the meaning of the
+// columns. "" without columns.
 std::string resultTable(const ReportModel& block);
+// The other columns, behind a line that opens; "" if there are none.
+std::string detailTables(const ReportModel& block);
 
-// Settings of each method, and the features that the kernels of each method leave out. Both are ""
-// if the block has none.
+// Notes, each as markup: one is shown, several are a line that opens. "" without notes.
+std::string noteList(const std::vector<std::string>& notes);
+// The same of a list of texts.
+std::string noteList(const ReportModel& texts);
+// Warnings and flags of the rows; warnings are always shown.
+std::string rowNotes(const ReportModel& block);
+
+// Settings of each method, and the features that the kernels leave out: those of all methods once.
+// Both are "" if the block has none.
 std::string settingsList(const ReportModel& block);
 std::string leftOutList(const ReportModel& block);
 
-// Counts of numerical health; a count above 0 in a column that is "bad" is marked.
+// Counts of numerical health; a count above 0 in a column that is "bad" is marked. Counts that are
+// equal in all rows are said once.
 std::string healthTable(const ReportModel& block);
 
 // Plots and bars as figures, each an SVG in the page.

@@ -34,14 +34,11 @@ std::string policy() {
 
 std::string blockHead(const ReportModel& block) {
   const std::string subtitle = reportText(block, "subtitle");
-  std::string notes;
-  for (const ReportModel& note : reportList(block, "notes"))
-    notes += fmt::format("<li>{}</li>\n", escapeMarkup(note.get<std::string>()));
   return fmt::format(
       "<section class=\"block\" id=\"b-{}\">\n<h2>{}</h2>\n{}{}",
       escapeMarkup(reportText(block, "id")), escapeMarkup(reportText(block, "title")),
       subtitle.empty() ? "" : fmt::format("<p class=\"subtitle\">{}</p>\n", escapeMarkup(subtitle)),
-      notes.empty() ? "" : fmt::format("<ul class=\"flags\">\n{}</ul>\n", notes));
+      html::noteList(reportList(block, "notes")));
 }
 
 }  // namespace
@@ -65,8 +62,8 @@ void writeReport(const fs::path& folder, const ReportModel& model) {
   for (const ReportModel& block : model["blocks"]) {
     out << blockHead(block) << html::resultTable(block);
     html::writeImages(out, block, index++, folder, limit);
-    out << html::plotFigures(block) << html::settingsList(block) << html::leftOutList(block)
-        << html::healthTable(block) << "</section>\n";
+    out << html::plotFigures(block) << html::detailTables(block) << html::settingsList(block)
+        << html::leftOutList(block) << html::healthTable(block) << "</section>\n";
   }
   out << "</main>\n" << html::reportFoot(model, limit);
   out << "<script>" << pageScript() << "</script>\n</body>\n</html>\n";

@@ -114,10 +114,10 @@ std::set<std::string> columns(const Place& at) {
 }
 
 void row(const Place& at, const std::set<std::string>& keys) {
-  requireObject(at, {"method", "cells"}, {"counts", "flags"});
+  requireObject(at, {"method", "cells"}, {"counts", "warnings", "flags"});
   member(at, "method", text);
   member(at, "counts", flag);
-  member(at, "flags", texts);
+  for (const char* name : {"warnings", "flags"}) member(at, name, texts);
   const Place cells{at.json["cells"], at.path + ".cells"};
   if (!cells.json.is_object()) failAt(cells.path, "must be an object");
   for (const auto& item : cells.json.items()) {
@@ -157,9 +157,10 @@ void series(const Place& at) {
 void plots(const Place& at) {
   std::set<std::string> ids;
   forEach(at, [&](const Place& plot) {
-    requireObject(plot, {"id", "title", "x", "y", "series"}, {});
+    requireObject(plot, {"id", "title", "x", "y", "series"}, {"intervals"});
     member(plot, "id", [&](const Place& p) { uniqueId(p, ids); });
     member(plot, "title", text);
+    member(plot, "intervals", [](const Place& p) { oneOf(p, {"bands", "bars"}); });
     for (const char* axis : {"x", "y"}) {
       member(plot, axis, [](const Place& p) {
         requireObject(p, {"title"}, {"log", "note"});
@@ -251,7 +252,7 @@ void images(const Place& at) {
 void block(const Place& at, std::set<std::string>& ids) {
   requireObject(at, {"id", "title", "columns", "rows"},
                 {"subtitle", "notes", "part_of", "row_title", "plots", "bars", "settings",
-                 "left_out", "health", "images", "exposure"});
+                 "left_out", "health", "images", "opens_on", "exposure"});
   member(at, "part_of", [&](const Place& p) {
     text(p);
     if (!ids.count(p.json.get<std::string>())) failAt(p.path, "must be the id of an earlier block");
@@ -269,6 +270,14 @@ void block(const Place& at, std::set<std::string>& ids) {
   member(at, "left_out", leftOut);
   member(at, "health", health);
   member(at, "images", images);
+  member(at, "opens_on", [&](const Place& p) {
+    text(p);
+    const ReportModel& all = reportList(at.json, "images");
+    const bool isThere = std::any_of(all.begin(), all.end(), [&](const ReportModel& image) {
+      return image["name"] == p.json && image["role"] == "method";
+    });
+    if (!isThere) failAt(p.path, "must be the name of an image whose role is method");
+  });
   member(at, "exposure", [](const Place& p) {
     number(p);
     const double exposure = reportNumber(p.json);

@@ -14,7 +14,7 @@
 //                    "better": "lower" | "higher" | "none"?,
 //                    "detail": bool?               true: in a second table
 //                    "digits": integer? } ]            significant digits, 1 to 17; default 3
-//     "rows": [ { "method": text, "counts": bool?, "flags": [text...]?,
+//     "rows": [ { "method": text, "counts": bool?, "warnings": [text...]?, "flags": [text...]?,
 //                 "cells": { KEY: { "value": number, "lo": number?, "hi": number?, "note": text?,
 //                                  "ranked": bool? } } } ]
 //                                                          KEY is a column's; cells may be missing
@@ -23,6 +23,7 @@
 //                  "x": { "title": text, "log": bool?, "note": text? },
 //                                                   a note is placed behind the title
 //                  "y": likewise,
+//                  "intervals": "bands" | "bars"?    default "bands"
 //                  "series": [ { "name": text,
 //                                "points": [[x, y] | [x, y, lo, hi]...]   in order of x
 //                                "hollow": [integer...]?    indices of points, from 0
@@ -35,17 +36,21 @@
 //     "health": { "columns": [ text | { "name": text, "help": text?, "bad": bool? } ],
 //                 "rows": [ { "method": text, "counts": [integer...] } ] }?
 //     "images": [ { "name": text, "file": text, "role": "reference" | "method" } ]?
+//     "opens_on": text?                                name of an image that is no reference
 //     "exposure": number?                              above 0; default 1
 //   } ] }
 //
 // "?" marks an optional member. A number is a JSON number or "nan", "inf", "-inf"; NaN as "lo" or
-// "hi" means unknown. `counts` false: the row does not count, `flags` says why; default true.
-// `note` is placed behind the number. `ranked` false: the number is not compared with other rows
-// and is never the best; default true. A series with the name of a row looks the same in all plots
-// of the block. `fit`: log10 y = intercept + slope log10 x if both axes are logarithmic (a linear
-// axis enters without its logarithm); lo and hi are the interval of the slope. `hollow`: points
-// that the fit leaves out. `bad`: any count above 0 is a fault. `file` is relative to the report's
-// folder; the images of a block have one size.
+// "hi" means unknown. `counts` false: the row does not count; default true. `warnings`: why, and
+// why else not to trust its numbers; they are always shown, while several notes and `flags` are a
+// line that opens. `intervals`: "bars" where nothing was measured between the points. `opens_on`:
+// what the block's images show first, beside the reference; default: the first that is no
+// reference. `note` is placed behind the number. `ranked` false: the number is not compared with
+// other rows and is never the best; default true. A series with the name of a row looks the same in
+// all plots of the block. `fit`: log10 y = intercept + slope log10 x if both axes are logarithmic
+// (a linear axis enters without its logarithm); lo and hi are the interval of the slope. `hollow`:
+// points that the fit leaves out. `bad`: any count above 0 is a fault. `file` is relative to the
+// report's folder; the images of a block have one size.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -39,10 +39,10 @@ std::string box(double x, double y, double width, double height, size_t index,
                 const std::string& tip) {
   std::string out = fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"#ffffff\" "
-      "stroke-width=\"0.75\" class=\"part f{}\"><title>{}</title></rect>\n",
+      "stroke-width=\"0.75\" class=\"part p{}\"><title>{}</title></rect>\n",
       svg::coordinate(x), svg::coordinate(y), svg::coordinate(width), svg::coordinate(height),
-      svg::colour(index), index % svg::kColours, escapeMarkup(tip));
-  const size_t round = index / svg::kColours;
+      svg::passColour(index), index % svg::kPassColours, escapeMarkup(tip));
+  const size_t round = index / svg::kPassColours;
   for (size_t i = 1; i <= round; ++i) {
     const double at = y + height * double(i) / double(round + 1);
     out += fmt::format(

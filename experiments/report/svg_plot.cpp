@@ -79,12 +79,14 @@ double clamped(const Canvas& canvas, double value) {
                               : canvas.y.lo;
 }
 
-// Draws a band for each unbroken sequence of intervals; whiskers for a single one.
-std::string band(const Canvas& canvas, const std::vector<PlotPoint>& points, size_t index) {
+// Draws a band for each unbroken sequence of intervals; whiskers for a single one, and for all if
+// intervals are bars.
+std::string band(const Canvas& canvas, const std::vector<PlotPoint>& points, size_t index,
+                 bool hasBars) {
   std::string out;
   for (size_t begin = 0; begin < points.size(); ++begin) {
     size_t end = begin;
-    while (end < points.size() && hasInterval(points[end])) ++end;
+    while (end < points.size() && hasInterval(points[end]) && !(hasBars && end > begin)) ++end;
     if (end == begin) continue;
     std::string upper, lower;
     for (size_t i = begin; i < end; ++i) {
@@ -107,7 +109,7 @@ std::string band(const Canvas& canvas, const std::vector<PlotPoint>& points, siz
           "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.2\" class=\"band f{}\"/>\n", upper,
           lower, svg::colour(index), index % svg::kColours);
     }
-    begin = end;
+    begin = end - 1;
   }
   return out;
 }
@@ -221,13 +223,12 @@ void collect(const PlotSpec& plot, bool isX, std::vector<double>& inner,
   }
 }
 
-// Returns the index of the row with that name; for a series that is not a row: an index after all
-// rows.
-size_t styleByName(const ReportModel& rows, const std::string& name, size_t place) {
+// Returns the index of the row with that name, if there is one.
+std::optional<size_t> rowNamed(const ReportModel& rows, const std::string& name) {
   for (size_t i = 0; i < rows.size(); ++i) {
     if (reportText(rows[i], "method") == name) return i;
   }
-  return rows.size() + place;
+  return std::nullopt;
 }
 
 // Counts the points that are not shown, or not part of the lines.
@@ -277,7 +278,7 @@ std::string plotSvg(const PlotSpec& plot) {
   out += axes(canvas, plot);
   // Draw the bands below all lines.
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    out += band(canvas, shownPoints(canvas, plot.series[i]), styleOf(plot, i));
+    out += band(canvas, shownPoints(canvas, plot.series[i]), styleOf(plot, i), plot.hasBars);
   }
   for (size_t i = 0; i < plot.series.size(); ++i) out += seriesMarks(canvas, plot, i);
   out += legend(plot, legendTop);
@@ -297,10 +298,17 @@ PlotSpec plotFromModel(const ReportModel& block, const ReportModel& model) {
   };
   plot.x = axis(model["x"]);
   plot.y = axis(model["y"]);
+  plot.hasBars = reportText(model, "intervals") == "bars";
+  const ReportModel &rows = block["rows"], &all = model["series"];
+  const bool isOfRows = std::any_of(all.begin(), all.end(), [&](const ReportModel& one) {
+    return rowNamed(rows, reportText(one, "name")).has_value();
+  });
   for (const ReportModel& from : model["series"]) {
     PlotSeries& series = plot.series.emplace_back();
     series.name = reportText(from, "name");
-    series.style = styleByName(block["rows"], series.name, plot.series.size() - 1);
+    // Beside rows, a series that is none has an index after all of them.
+    const size_t other = (isOfRows ? rows.size() : 0) + plot.series.size() - 1;
+    series.style = rowNamed(rows, series.name).value_or(other);
     for (const ReportModel& numbers : from["points"]) {
       PlotPoint& point = series.points.emplace_back();
       point.x = reportNumber(numbers[0]);

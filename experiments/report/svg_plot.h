@@ -42,6 +42,8 @@ struct PlotSpec {
   std::string title;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
+  // Intervals as bars; false: as bands between points.
+  bool hasBars = false;
 };
 
 // Area inside the axes, in pixels of the image.
@@ -61,7 +63,8 @@ Axis plotAxisY(const PlotSpec& plot);
 std::string plotSvg(const PlotSpec& plot);
 
 // Reads a member of "plots" of a block of a checked model. A series with the name of one of the
-// block's rows gets the style of that row's index: a method looks the same in every plot.
+// block's rows gets the style of that row's index: a method looks the same in every plot. A plot
+// none of whose series is a row has styles of its own.
 PlotSpec plotFromModel(const ReportModel& block, const ReportModel& plot);
 
 }  // namespace restlab

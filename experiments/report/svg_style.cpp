@@ -47,6 +47,12 @@ const char* colour(size_t index) {
   return colours[index % kColours];
 }
 
+const char* passColour(size_t index) {
+  static const char* const colours[kPassColours] = {"#7a7695", "#fec193", "#553318", "#a1a692",
+                                                    "#2e3a73", "#9bdafd", "#955b2a"};
+  return colours[index % kPassColours];
+}
+
 const char* dashes(size_t index) {
   static const char* const patterns[] = {"", "7 3", "2 3", "9 3 2 3"};
   return patterns[index / kColours % 4];

@@ -15,6 +15,11 @@ namespace restlab::svg {
 constexpr size_t kColours = 7;
 const char* colour(size_t index);
 
+// Colour `index` of the passes of a frame, none of which looks like one of a method: muted, safe
+// for colour-blind readers by their lightness. Repeats after kPassColours.
+constexpr size_t kPassColours = 7;
+const char* passColour(size_t index);
+
 // Height of a line of a legend.
 constexpr double kLegendRow = 19.0;
 

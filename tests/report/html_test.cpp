@@ -94,7 +94,8 @@ TEST_F(HtmlTest, TextIsHarmless) {
   for (const char* key : {"title", "subtitle", "row_title"}) block[key] = hostile;
   block["notes"] = {hostile};
   for (const char* key : {"title", "unit", "help"}) block["columns"][1][key] = hostile;
-  block["rows"][1]["method"] = block["rows"][1]["flags"][0] = hostile;
+  block["rows"][1]["method"] = block["rows"][1]["warnings"][0] = hostile;
+  block["rows"][2]["flags"] = {hostile, hostile + "2"};
   block["rows"][1]["cells"]["mse"]["note"] = hostile;
   block["plots"][0]["title"] = block["plots"][0]["series"][0]["name"] = hostile;
   block["bars"]["title"] = block["bars"]["rows"][0]["name"] = hostile;
@@ -161,6 +162,96 @@ TEST_F(HtmlTest, BestOfThoseThatCount) {
   const std::string apart = between(report(decided), "<table class=\"results\">", "</table>");
   EXPECT_EQ(occurrences(apart, "num best\""), 2u);
   EXPECT_NE(apart.find("num best\" data-value=\"0.029999999999999999\""), std::string::npos);
+}
+
+// Adds a column whose cells are those numbers.
+void addColumn(ReportModel& block, const std::string& key, bool isDetail,
+               const std::vector<double>& values) {
+  block["columns"].push_back({{"key", key}, {"title", key}, {"unit", "u"}, {"detail", isDetail}});
+  for (size_t i = 0; i < values.size(); ++i)
+    block["rows"][i]["cells"][key] = {{"value", values[i]}};
+}
+
+TEST_F(HtmlTest, EqualColumnsAreSaidOnce) {
+  ReportModel& block = model_["blocks"][0];
+  addColumn(block, "frames", true, {64, 64, 64, 64});
+  addColumn(block, "bias", false, {0, 0, 0, 0});
+  addColumn(block, "bytes", true, {8, 8, 8, 12});
+  addColumn(block, "rays", true, {8, 8, 8});  // unknown in the last row
+  const std::string html = report(model_);
+  EXPECT_EQ(between(html, "<p class=\"once\">", "</p>"),
+            "In all rows: <span>frames</span> 64 u. Zero in all rows: <span>bias</span>.");
+  const std::string details = between(html, "<details class=\"more\">", "</details>");
+  for (const char* key : {">bytes", ">rays"})
+    EXPECT_NE(details.find(key), std::string::npos) << details;
+  EXPECT_EQ(html.find("<button type=\"button\">frames"), std::string::npos);
+  EXPECT_EQ(html.find("<button type=\"button\">bias"), std::string::npos);
+
+  ReportModel one = model_;
+  ReportModel& rows = one["blocks"][0]["rows"];
+  rows = ReportModel::array({ReportModel(rows[3])});
+  EXPECT_NE(report(one).find("<button type=\"button\">bias"), std::string::npos)
+      << "a single row is a table";
+}
+
+TEST_F(HtmlTest, ATableKeepsItsColumnsWhereAllAreEqual) {
+  ReportModel& block = model_["blocks"][1];
+  for (ReportModel& row : block["rows"]) row["cells"] = block["rows"][0]["cells"];
+  const std::string table = between(report(model_), "id=\"b-second\"", "</table>");
+  EXPECT_NE(table.find("MSE"), std::string::npos) << table;
+}
+
+TEST_F(HtmlTest, HealthAndFeaturesAreSaidOnce) {
+  ReportModel& block = model_["blocks"][0];
+  block["health"]["columns"] = {{{"name", "fault"}, {"bad", true}}, "quiet", "same", "differs"};
+  block["health"]["rows"][0]["counts"] = {7, 0, 1234, 1};
+  block["health"]["rows"][1]["counts"] = {7, 0, 1234, 2};
+  block["left_out"][1]["features"] = {"environment", "textures", "volumes"};
+  const std::string html = report(model_);
+  const std::string health = between(html, "<h3>Numerical health</h3>", "</section>");
+  EXPECT_EQ(between(health, "<p class=\"once\">", "</p>"),
+            "In all rows: <span>same</span> 1,234. Zero in all rows: <span>quiet</span>.");
+  EXPECT_EQ(occurrences(health, "num bad\" data-value=\"7\""), 2u)
+      << "a fault stands beside its method";
+  EXPECT_EQ(occurrences(health, "<button"), 3u) << "method, fault, differs";
+  const std::string left = between(html, "<h3>Left out of the kernels</h3>", "<h3>");
+  for (const char* feature : {"<li>textures</li>", "<li>environment</li>", "<li>volumes</li>"})
+    EXPECT_EQ(occurrences(left, feature), 1u) << left;
+  EXPECT_LT(left.find("environment"), left.find("<table")) << left;
+  EXPECT_LT(left.find("gi unbiased"), left.find("volumes")) << left;
+
+  block["health"]["rows"][0]["counts"] = block["health"]["rows"][1]["counts"] = {0, 0, 0, 0};
+  block["left_out"][1]["features"] = block["left_out"][0]["features"];
+  const std::string equal = report(model_);
+  EXPECT_EQ(equal.find("<table class=\"health\">"), std::string::npos);
+  EXPECT_EQ(equal.find("<table class=\"left-out\">"), std::string::npos);
+}
+
+TEST_F(HtmlTest, PicturesStandBeforeDetails) {
+  addColumn(model_["blocks"][0], "detail", true, {1, 2, 3, 4});
+  const std::string html = report(model_);
+  size_t last = 0;
+  for (const char* part :
+       {"<table class=\"results\">", "<div class=\"viewer\"", "<div class=\"figures\">",
+        "<details class=\"more\">", "Left out of the kernels", "Numerical health"}) {
+    const size_t at = html.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    EXPECT_GT(at, last) << part;
+    last = at;
+  }
+}
+
+TEST_F(HtmlTest, SeveralNotesAreALineThatOpens) {
+  model_["blocks"][0]["rows"][2]["flags"] = {"first remark", "second remark"};
+  model_["blocks"][0]["rows"][3]["flags"] = {"second remark"};
+  const std::string html = report(model_);
+  const std::string notes = between(html, "<details class=\"notes\">", "</details>");
+  EXPECT_NE(notes.find("<summary><strong>2 notes</strong>"), std::string::npos) << notes;
+  EXPECT_EQ(occurrences(notes, "first remark"), 2u) << "in the line and in the list";
+  EXPECT_EQ(occurrences(notes, "second remark"), 1u) << "of two rows";
+  EXPECT_EQ(notes.find("energy ratio 0.93"), std::string::npos) << "a warning is always shown";
+  EXPECT_NE(html.find("<li class=\"no\"><span class=\"method\">gi biased</span>: energy ratio"),
+            std::string::npos);
 }
 
 TEST_F(HtmlTest, LargeImagesAreCropsAndSaySo) {

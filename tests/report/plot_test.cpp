@@ -81,6 +81,21 @@ TEST(Plot, BandHasBothEnds) {
   EXPECT_NEAR(points[5].second, expectedY(plot, 0.8), 0.01);
 }
 
+TEST(Plot, IntervalsMayBeBars) {
+  ReportModel block = ReportModel::parse(R"({
+    "rows": [{"method": "path"}, {"method": "gi"}],
+    "plot": {"title": "", "intervals": "bars", "x": {"title": ""}, "y": {"title": ""}, "series": [
+      {"name": "swept", "points": [[1, 4, 3, 5], [2, 8, 7, 9], [3, 8], [4, 8, 7, 9]]}]}})");
+  const PlotSpec plot = plotFromModel(block, block["plot"]);
+  EXPECT_EQ(plot.series[0].style, 0u) << "of no row, as are all others";
+  const XmlElement svg = parseXml(plotSvg(plot));
+  EXPECT_EQ(findAll(svg, "path", "whisker").size(), 3u);
+  EXPECT_TRUE(findAll(svg, "polygon", "band").empty());
+  block["plot"].erase("intervals");
+  const XmlElement bands = parseXml(plotSvg(plotFromModel(block, block["plot"])));
+  EXPECT_EQ(findAll(bands, "polygon", "band").size(), 1u);
+}
+
 TEST(Plot, FitIsTheLineOfItsSlope) {
   const PlotSpec plot = logPlot();
   const XmlElement svg = parseXml(plotSvg(plot));

@@ -93,7 +93,9 @@ TEST_F(RunFolder, ShowsWhatWasMeasured) {
 }
 
 TEST_F(RunFolder, PixelsAreThoseOfTheFiles) {
+  EXPECT_NE(state("current"), "1") << "path has the largest error";
   browser_->press("s", "KeyS", false);
+  browser_->press("2", "Digit2");
   settle();
   const fs::path images = folder_.path() / "out/images";
   const auto read = [&](const std::string& name) {

@@ -105,7 +105,7 @@ ReportModel rows() {
          {{"time_ms", cell(70.0, 1.0)}, {"mse", cell(0.9, 0.1)}, {"energy", cell(1.01, 0.02)}}}},
        {{"method", "gi biased"},
         {"counts", false},
-        {"flags", list({"energy ratio 0.93 [0.92, 0.94] is outside 0.95..1.05"})},
+        {"warnings", list({"energy ratio 0.93 [0.92, 0.94] is outside 0.95..1.05"})},
         {"cells",
          {{"time_ms", cell(8.0, 0.5)},
           {"mse", cell(0.01, 0.001)},

@@ -13,6 +13,7 @@ set(RL_REPORT_TESTS
   report/text_test.cpp
   report/viewer_test.cpp
   report/xml.cpp
+  report/colour_distance.cpp
 )
 set(RL_REPORT_LIBRARIES rl_report)
 # Their tests share a browser.

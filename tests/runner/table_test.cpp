@@ -78,6 +78,28 @@ TEST_F(TableTest, IdsOfBlocksArePlainAndDiffer) {
   }
 }
 
+// The report opens on the lowest error among rows that are to be trusted.
+TEST_F(TableTest, TheReportOpensOnTheBest) {
+  const auto opensOn = [&] {
+    const auto document = blockDocument(suite_, summarise(suite_, block_), 1.0f);
+    return document.value("opens_on", std::string());
+  };
+  EXPECT_EQ(opensOn(), "gi");
+  for (RunResult& run : block_.methods[1].runs) run.measured.energyRatio = 0.9;
+  EXPECT_EQ(opensOn(), "path") << "gi does not count";
+  const auto warned = blockDocument(suite_, summarise(suite_, block_), 1.0f);
+  EXPECT_EQ(warned["rows"][1]["warnings"].size(), 1u) << warned["rows"][1].dump();
+  EXPECT_TRUE(warned["rows"][1]["flags"].empty()) << "said once";
+  for (size_t run = 0; run < 3; ++run) {
+    block_.methods[1].runs[run].measured.energyRatio = 1.0;
+    block_.methods[1].runs[run].measured.mse = block_.methods[0].runs[run].measured.mse = 1.0;
+  }
+  EXPECT_EQ(opensOn(), "path") << "the first of equal ones";
+  for (MethodResult& method : block_.methods)
+    for (RunResult& run : method.runs) run.measured.nonfinite = 1;
+  EXPECT_EQ(opensOn(), "") << "none is to be trusted";
+}
+
 // Columns without times or comparisons are left out.
 TEST_F(TableTest, EmptyColumnsAreLeftOut) {
   for (MethodResult& method : block_.methods)

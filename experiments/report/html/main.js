@@ -20,6 +20,7 @@ async function openViewer(root) {
                  nonfinite: nonfinitePixels(values), version: 1});
   }
   const viewer = new Viewer(root, data, images);
+  if (data.first !== undefined) viewer.set({current: data.first});
   root.viewer = viewer;
   return viewer;
 }

@@ -11,6 +11,7 @@
 #include "experiments/report/text.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/tables/disturbed.h"
+#include "experiments/runner/tables/parameter_sweep.h"
 #include "experiments/runner/tables/preview.h"
 #include "experiments/runner/tables/report.h"
 #include "experiments/runner/tables/report_document.h"
@@ -47,12 +48,14 @@ std::string Outputs::add(const Suite& suite, BlockResult result) {
   return blockTable(suite, block.rows);
 }
 
-std::vector<SceneSweep> Outputs::sweeps() const {
+std::vector<SweptBlock> Outputs::sweptBlocks() const {
   std::vector<SweptBlock> blocks;
   for (const Block& block : blocks_)
     blocks.push_back({block.suite, &block.rows, block.referenceMean});
-  return sceneSweeps(blocks);
+  return blocks;
 }
+
+std::vector<SceneSweep> Outputs::sweeps() const { return sceneSweeps(sweptBlocks()); }
 
 std::string Outputs::sweepTables() const { return restlab::sweepTables(sweeps()); }
 
@@ -95,6 +98,11 @@ std::vector<nlohmann::ordered_json> Outputs::documents() const {
     documents.push_back(sweepDocument(sweep));
     for (const std::optional<size_t>& block : sweep.blocks)
       if (block) blocks[*block]["part_of"] = sweep.id;
+  }
+  for (SettingSweep& sweep : settingSweeps(sweptBlocks())) {
+    for (const size_t block : sweep.blocks)
+      if (!blocks[block].contains("part_of")) blocks[block]["part_of"] = sweep.document["id"];
+    documents.push_back(std::move(sweep.document));
   }
   documents.insert(documents.end(), blocks.begin(), blocks.end());
   return documents;

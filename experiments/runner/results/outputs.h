@@ -45,6 +45,7 @@ class Outputs {
     std::vector<MethodSummary> rows;  // point into `result`
     double referenceMean;             // over pixels and channels
   };
+  std::vector<SweptBlock> sweptBlocks() const;
   std::vector<SceneSweep> sweeps() const;
 
   std::filesystem::path out_;

@@ -365,7 +365,8 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
     }
     points.push_back(readSuite(point, file, sweep));
     requireOwnSeeds(sweep.settings, points);
-    points.back().point = sweepLabel(sweep.settings, choice);
+    points.back().swept = sweptValues(sweep.settings, choice);
+    points.back().point = sweepLabel(points.back().swept);
     for (const SuiteScene& scene : points.back().scenes)
       if (scene.suggestedBounces)
         root.getTable(kSceneBounces)

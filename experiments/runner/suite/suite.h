@@ -12,6 +12,7 @@
 #include "experiments/runner/suite/light_events.h"
 #include "experiments/runner/suite/prepare.h"
 #include "experiments/runner/suite/reference_target.h"
+#include "experiments/runner/suite/swept_value.h"
 
 namespace restlab {
 
@@ -63,6 +64,7 @@ struct SuiteMethod {
   std::string name;                // in tables and file names; unique
   std::string base;                // same on every backend; equals the name if there is only one
   std::string given;               // as in the suite, without swept values
+  std::vector<SweptValue> swept;   // those that the name holds
   SessionConfig session;           // integrator, mode, cache, parameters, kernels, backend
   std::optional<ImageRow> images;  // if set, nothing is rendered, and `session` is unused
   // Places in the suite, for errors: file:line:column.
@@ -87,8 +89,9 @@ struct SuiteMask {
 
 struct Suite : TransportSettings {
   std::string name, question, file;
-  std::string point;     // values of swept settings, "max_bounces=4"; "" without a sweep
-  std::string resolved;  // suite with includes, overrides and sweeps, as TOML
+  std::string point;              // values of swept settings, "max_bounces=4"; "" without a sweep
+  std::vector<SweptValue> swept;  // the same, one by one
+  std::string resolved;           // suite with includes, overrides and sweeps, as TOML
   std::vector<SuiteScene> scenes;
   std::vector<SuiteMethod> methods;  // rendered ones first, then rows of images
   std::vector<uint32_t> components = {rl::RL_COMPONENT_ALL};

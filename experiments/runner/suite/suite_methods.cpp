@@ -158,7 +158,8 @@ std::vector<SuiteMethod> readSwept(ConfigTable& table, const ConfigTable& settin
       shownChoice.push_back(choice[i]);
     }
     for (SuiteMethod& method : readMethod(table, settings, suite)) {
-      const std::string label = sweepLabel(shown, shownChoice);
+      method.swept = sweptValues(shown, shownChoice);
+      const std::string label = sweepLabel(method.swept);
       if (!label.empty()) method.name = method.base = fmt::format("{}, {}", method.base, label);
       all.push_back(std::move(method));
     }

@@ -156,12 +156,18 @@ std::vector<std::vector<size_t>> combinations(const std::vector<SweepAxis>& axes
   return all;
 }
 
-std::string sweepLabel(const std::vector<SweepAxis>& axes, const std::vector<size_t>& choice) {
+std::vector<SweptValue> sweptValues(const std::vector<SweepAxis>& axes,
+                                    const std::vector<size_t>& choice) {
+  std::vector<SweptValue> values;
+  for (size_t i = 0; i < axes.size(); ++i)
+    values.push_back({axes[i].leaf, unquoted(axes[i].texts[choice[i]])});
+  return values;
+}
+
+std::string sweepLabel(const std::vector<SweptValue>& values) {
   std::string label;
-  for (size_t i = 0; i < axes.size(); ++i) {
-    label += fmt::format("{}{}={}", i == 0 ? "" : ", ", axes[i].leaf,
-                         unquoted(axes[i].texts[choice[i]]));
-  }
+  for (const SweptValue& value : values)
+    label += fmt::format("{}{}={}", label.empty() ? "" : ", ", value.key, value.text);
   return label;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/config.h"
+#include "experiments/runner/suite/swept_value.h"
 
 namespace restlab {
 
@@ -47,7 +48,11 @@ Sweep readSweep(const ConfigTable& root, const std::vector<std::string>& setting
 // without axes. Throws Error (badUsage) at the axis that makes more than 2000.
 std::vector<std::vector<size_t>> combinations(const std::vector<SweepAxis>& axes);
 
+// Returns the value of each axis.
+std::vector<SweptValue> sweptValues(const std::vector<SweepAxis>& axes,
+                                    const std::vector<size_t>& choice);
+
 // Returns "confidence_cap=20, mode=biased", without the quotes of strings.
-std::string sweepLabel(const std::vector<SweepAxis>& axes, const std::vector<size_t>& choice);
+std::string sweepLabel(const std::vector<SweptValue>& values);
 
 }  // namespace restlab

@@ -60,15 +60,15 @@ void judgeUnbiased(MethodSummary& row) {
   if (std::abs(energy.value - 1.0) > allowed) {
     const bool isOutside = energyVerdict(energy) == Verdict::outside;
     row.counts = row.counts && !isOutside;
-    row.flags.push_back(fmt::format("{}declared unbiased, but its energy ratio {} leaves out 1",
-                                    isOutside ? "does not count: " : "", energyText(energy)));
+    row.doubt(fmt::format("{}declared unbiased, but its energy ratio {} leaves out 1",
+                          isOutside ? "does not count: " : "", energyText(energy)));
   }
   const Interval& share = row.biasShare;
   if (share.value > kDoubtHalfWidths * (share.value - share.lo)) {
     const bool isLarge = biasVerdict(share) == Verdict::outside;
     row.counts = row.counts && !isLarge;
-    row.flags.push_back(fmt::format("{}declared unbiased, but its squared bias is {} of its MSE",
-                                    isLarge ? "does not count: " : "", shareText(share)));
+    row.doubt(fmt::format("{}declared unbiased, but its squared bias is {} of its MSE",
+                          isLarge ? "does not count: " : "", shareText(share)));
   }
 }
 
@@ -80,7 +80,7 @@ void flagUnsolved(MethodSummary& row) {
   const auto iterations = parameters.find("iterations");
   if (iterations == parameters.end()) return;
   if (int64_t(row.residuals.size()) < std::get<int64_t>(iterations->second)) return;
-  row.flags.push_back(
+  row.doubt(
       fmt::format("its solution is not done: the last of {} iterations left {} % of the light",
                   row.residuals.size(), shortNumber(100.0 * row.residuals.back(), 2)));
 }
@@ -90,7 +90,7 @@ void flagUnsolved(MethodSummary& row) {
 void judgeBiased(MethodSummary& row) {
   if (const std::string& light = row.result->lightLeftOut; !light.empty()) {
     row.counts = false;
-    row.flags.push_back(
+    row.doubt(
         fmt::format("does not count: it leaves out {}; energy ratio {}, squared bias {} of its MSE",
                     light, energyText(row.energyRatio), shareText(row.biasShare)));
     return;
@@ -98,9 +98,8 @@ void judgeBiased(MethodSummary& row) {
   switch (energyVerdict(row.energyRatio)) {
     case Verdict::outside:
       row.counts = false;
-      row.flags.push_back(fmt::format("does not count: energy ratio {} is outside {:g}..{:g}",
-                                      energyText(row.energyRatio), kEnergyRatioMin,
-                                      kEnergyRatioMax));
+      row.doubt(fmt::format("does not count: energy ratio {} is outside {:g}..{:g}",
+                            energyText(row.energyRatio), kEnergyRatioMin, kEnergyRatioMax));
       break;
     case Verdict::undecided:
       row.flags.push_back(
@@ -112,7 +111,7 @@ void judgeBiased(MethodSummary& row) {
   }
   if (std::isnan(row.biasShare.value)) {
     row.counts = false;
-    row.flags.push_back(
+    row.doubt(
         "does not count: its bias is unknown (needs two runs and a reference in "
         "two halves)");
     return;
@@ -120,9 +119,8 @@ void judgeBiased(MethodSummary& row) {
   switch (biasVerdict(row.biasShare)) {
     case Verdict::outside:
       row.counts = false;
-      row.flags.push_back(
-          fmt::format("does not count: squared bias is {} of its MSE, more than {:.0f} %",
-                      shareText(row.biasShare), 100.0 * kBiasShareMax));
+      row.doubt(fmt::format("does not count: squared bias is {} of its MSE, more than {:.0f} %",
+                            shareText(row.biasShare), 100.0 * kBiasShareMax));
       break;
     case Verdict::undecided:
       row.flags.push_back(fmt::format(
@@ -174,7 +172,7 @@ bool isExactEnough(const MethodSummary& row) {
 void judge(MethodSummary& row) {
   if (row.nonfinite > 0) {
     row.counts = false;
-    row.flags.push_back(fmt::format("{} non-finite values", row.nonfinite));
+    row.doubt(fmt::format("{} non-finite values", row.nonfinite));
   }
   if (row.worstShare > kWorstShareMax) {
     row.flags.push_back(

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "core/frame/method_settings.h"
@@ -17,6 +19,7 @@
 #include "experiments/runner/run/block_label.h"
 #include "experiments/runner/suite/image_settings.h"
 #include "experiments/runner/tables/columns.h"
+#include "experiments/runner/tables/parameter_sweep.h"
 
 namespace restlab {
 
@@ -76,9 +79,15 @@ Json cellOf(const Columns& columns, const Column& column, const MethodSummary& r
 void addTable(const std::vector<MethodSummary>& rows, Json& block) {
   Json heads = Json::array(), lines = Json::array();
   for (const MethodSummary& row : rows) {
+    std::vector<std::string> notes;
+    const auto isDoubt = [&](const std::string& flag) {
+      return std::find(row.doubts.begin(), row.doubts.end(), flag) != row.doubts.end();
+    };
+    std::remove_copy_if(row.flags.begin(), row.flags.end(), std::back_inserter(notes), isDoubt);
     lines.push_back({{"method", row.method->name},
                      {"counts", row.counts},
-                     {"flags", row.flags},
+                     {"warnings", row.doubts},
+                     {"flags", notes},
                      {"cells", Json::object()}});
   }
   const Columns columns = columnsOf(rows);
@@ -279,6 +288,22 @@ Json settingsOf(const std::vector<MethodSummary>& rows) {
   return settings;
 }
 
+// Returns the row of the lowest error among those whose numbers are to be trusted, the first of
+// equal ones; null if there is none.
+const MethodSummary* bestOf(const std::vector<MethodSummary>& rows) {
+  const MethodSummary* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const MethodSummary& row : rows) {
+    if (!row.counts || !row.doubts.empty()) continue;
+    // Errors below the noise of the reference are equal.
+    const double error = std::max(row.mse.value, 0.0);
+    if (!(error < least)) continue;
+    least = error;
+    best = &row;
+  }
+  return best;
+}
+
 }  // namespace
 
 Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, float exposure) {
@@ -299,7 +324,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
            suite.warmupFrames, suite.timedFrames, originOf(block.reference),
            block.reference.half0 ? "" : ", without halves: its own noise is part of every MSE")}};
   addTable(rows, document);
-  Json plots = Json::array();
+  Json plots = methodSweepPlots(rows);
   if (rows.front().convergence) {
     if (suite.timing) {
       plots.push_back(curves(
@@ -339,6 +364,7 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   document["left_out"] = std::move(left);
   document["health"] = healthOf(rows);
   document["images"] = std::move(images);
+  if (const MethodSummary* best = bestOf(rows)) document["opens_on"] = best->method->name;
   document["exposure"] = exposure;
   return document;
 }

@@ -10,6 +10,7 @@
 #include "experiments/runner/base/json_number.h"
 #include "experiments/runner/tables/markdown_cells.h"
 #include "experiments/runner/tables/scene_sweep.h"
+#include "experiments/runner/tables/swept_axis.h"
 
 namespace restlab {
 
@@ -137,51 +138,28 @@ std::string doubtOf(const SceneSweep& sweep, size_t method, size_t value) {
                      sweep.parameter.name, sweep.parameter.texts[value], why);
 }
 
-// Axis of a plot. On a logarithmic one, 0 is drawn left of all other values.
-struct Axis {
-  bool isLog = false;
-  double zeroAt = 0.0;
-  std::string note;
-};
-
-Axis axisOf(const std::vector<double>& values) {
-  constexpr double kFarApart = 1000.0;
-  const double least = *std::min_element(values.begin(), values.end());
-  if (least > 0.0) return {true, 0.0, ""};
-  double leastAbove = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const double value : values) {
-    if (value > 0.0) leastAbove = std::min(leastAbove, value);
-    most = std::max(most, value);
-  }
-  if (least < 0.0 || most < kFarApart * leastAbove) return {};
-  const double zeroAt = leastAbove / 10.0;
-  return {true, zeroAt, fmt::format("0 is drawn at {:g}", zeroAt)};
-}
-
 // Plots all methods over the values, in ascending order.
 Json plotOf(const SceneSweep& sweep, const SweepColumn& column) {
   const std::vector<double>& values = sweep.parameter.values;
   std::vector<size_t> order(values.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return values[a] < values[b]; });
-  const Axis axis = axisOf(values);
+  const SweptAxis axis = sweptAxis(values, 1.0);
   Json series = Json::array();
   for (size_t m = 0; m < sweep.methods.size(); ++m) {
     Json points = Json::array();
     for (const size_t i : order) {
       if (!sweep.blocks[i]) continue;
       const Interval of = column.value(sweep.cells[m][i]);
-      points.push_back({values[i] == 0.0 ? axis.zeroAt : values[i], finiteJson(of.value),
-                        finiteJson(of.lo), finiteJson(of.hi)});
+      points.push_back(
+          {axis.at(values[i]), finiteJson(of.value), finiteJson(of.lo), finiteJson(of.hi)});
     }
     series.push_back({{"name", sweep.methods[m]}, {"points", std::move(points)}});
   }
-  Json x = {{"title", sweep.parameter.name}, {"log", axis.isLog}};
-  if (!axis.note.empty()) x["note"] = axis.note;
   return {{"id", column.key},
           {"title",
            fmt::format("{} over {}, {}", column.key, sweep.parameter.name, sweep.parameter.scene)},
-          {"x", std::move(x)},
+          {"x", axis.document(sweep.parameter.name)},
           {"y", {{"title", column.yTitle}, {"log", column.isLogY}}},
           {"series", std::move(series)}};
 }

@@ -93,8 +93,14 @@ struct MethodSummary {
   HealthSum health;                     // over all timed frames
   uint64_t timedFrames = 0;
 
-  std::vector<std::string> flags;  // why the row does not count, and warnings
-  bool counts = true;              // false: bounds violated, or values that are not finite
+  std::vector<std::string> flags;   // why the row does not count, and what its numbers lack
+  std::vector<std::string> doubts;  // those of them for which its numbers are not to be trusted
+  bool counts = true;               // false: bounds violated, or values that are not finite
+
+  void doubt(std::string flag) {
+    doubts.push_back(flag);
+    flags.push_back(std::move(flag));
+  }
 };
 
 // Returns one summary per method with at least one finished run.
