@@ -231,7 +231,14 @@ std::vector<SettingWithoutEffect> settingsWithoutEffect(const Method& method,
   const ParameterMap resolved = resolveParameters(method, given);
   std::vector<SettingWithoutEffect> all;
   const auto ask = [&](const std::string& name) {
+    // An integrator that has no use for changes cannot tell that the denoiser has.
+    const std::vector<ParameterInfo>& ofChanges = changesPartInfo().parameters;
+    const bool isForDenoiser =
+        method.denoiser->followsChanges &&
+        std::any_of(ofChanges.begin(), ofChanges.end(),
+                    [&](const ParameterInfo& info) { return info.name == name; });
     for (const PartInfo* part : method.parts()) {
+      if (isForDenoiser && part == method.integrator) continue;
       const std::string why = part->reasonUnused ? part->reasonUnused(name, resolved) : "";
       if (!why.empty()) return all.push_back({name, why});
     }

@@ -171,7 +171,7 @@ std::string reuseReasonUnused(const std::string& name, const ParameterMap& param
                                         "spatial_rounds", "spatial_radius", "spatial_feedback"}))
     return "spatial_neighbours is 0";
   if (!s.temporal && neighbours == 0 &&
-      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "shading", "normal_threshold",
+      isOneOf(name, {"mis", "max_jacobian", "max_reflectance_ratio", "normal_threshold",
                      "plane_threshold"}))
     return "temporal is false and spatial_neighbours is 0";
   if (name == "aged_neighbours" && s.agedNeighbours > neighbours)

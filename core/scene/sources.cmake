@@ -22,6 +22,7 @@ target_sources(rl_core PRIVATE
   scene/scene_file/material_kinds.cpp
   scene/scene_file/scattering.cpp
   scene/scene_file/scene_file.cpp
+  scene/scene_file/scene_settings.cpp
   scene/scene_file/shapes.cpp
   scene/scene_file/meshes.cpp
   scene/crease.cpp

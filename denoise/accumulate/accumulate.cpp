@@ -70,6 +70,10 @@ const DenoiserInfo& accumulateDenoiserInfo() {
         "still view: the weights depend on the frame's number alone; moving: radiance lags behind "
         "where it changes with the view, and at edges; reading between pixels blurs";
     i.parameters = schema().infos();
+    i.reasonUnused = [](const std::string& name, const ParameterMap& p) {
+      const bool isOfHistory = name.starts_with("accumulate_") && name != "accumulate_cap";
+      return isOfHistory && schema().read(p).cap == 0.0 ? "accumulate_cap is 0" : "";
+    };
     i.needsSurfaces = true;
     i.followsChanges = true;
     i.record = recordAccumulate;

@@ -52,6 +52,12 @@ void recordAtrous(FrameGraph& g, const FrameInfo& f) {
   g.shared.shown = shown;
 }
 
+std::string whyAtrousUnused(const std::string& name, const ParameterMap& parameters) {
+  const bool isOfIterations = name == "atrous_deviations" || name.starts_with("edge_");
+  const bool isOff = schema().read(parameters).iterations == 0;
+  return isOfIterations && isOff ? "atrous_iterations is 0" : "";
+}
+
 }  // namespace
 
 const DenoiserInfo& atrousDenoiserInfo() {
@@ -64,6 +70,7 @@ const DenoiserInfo& atrousDenoiserInfo() {
     i.why = "light is averaged over neighbours on like surfaces";
     i.parameters = schema().infos();
     append(i.parameters, filterParameters());
+    i.reasonUnused = whyAtrousUnused;
     i.comparesSquares = true;
     i.needsFeatures = true;
     i.record = recordAtrous;

@@ -134,6 +134,17 @@ void recordSvgf(FrameGraph& g, const FrameInfo& f) {
   g.shared.shown = shown;
 }
 
+std::string whySvgfUnused(const std::string& name, const ParameterMap& parameters) {
+  const SvgfSettings s = schema().read(parameters);
+  const bool isOfIterations =
+      name == "svgf_deviations" || name == "svgf_variance" || name == "svgf_feedback";
+  if (isOfIterations && s.iterations == 0) return "svgf_iterations is 0";
+  // Only a method with such a cap shows means of frames.
+  if (name == "svgf_confidence" && !parameters.contains("confidence_cap"))
+    return "frames of the integrator average none";
+  return "";
+}
+
 }  // namespace
 
 DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
@@ -147,6 +158,7 @@ DenoiserInfo makeSvgf(const SvgfDefaults& defaults) {
       "changed";
   i.parameters = parametersOf(defaults);
   if (defaults.validateEvery != 0) i.defaults[kValidateEvery] = defaults.validateEvery;
+  i.reasonUnused = whySvgfUnused;
   i.comparesSquares = true;
   i.needsFeatures = true;
   i.followsChanges = true;

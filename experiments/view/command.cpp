@@ -161,6 +161,7 @@ ViewCommand commandOf(Members& members) {
   if (name == "material") {
     SetMaterial set{members.text("name"), members.text("key"), std::nullopt};
     if (!members.at("value").is_null()) set.value = members.text("value");
+    if (members.has("bases")) set.bases = members.whole("bases", 0, kMostBases);
     return set;
   }
   if (name == "layer") return ShowLayer{members.pane(), members.text("name")};

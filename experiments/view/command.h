@@ -1,14 +1,16 @@
 // Commands of a page to the viewer: one JSON object per message, {"do": NAME, ...}.
 //
 //   set         pane, key, value     a setting: integrator, mode, cache, denoiser, backend
-//   parameter   pane, name, value    one of the method's parameters; value null: its default
+//   parameter   pane, name, value    one of the method's parameters, or another setting of the pane
+//                                    (page_settings.h), such as its seed; value null: the default
 //   camera      to_world, yfov?      16 numbers, column-major, rigid; metres, radians
 //   resolution  width, height        pixels
-//   transport   name, value          a setting of light transport, of all panes; null: its default
+//   transport   name, value          a setting of all panes (page_settings.h), such as those of
+//                                    light transport; null: its default
 //   light       name, factor         factor on the radiance of a light of the scene
-//   material    name, key, value     a parameter of a [[material]] of the scene file, as TOML;
-//   null:
-//                                    the file's
+//   material    name, key, value, bases?  a parameter or the kind of a [[material]] of the scene
+//                                    file, as TOML; null: the file's. bases: 1 is the scene file
+//                                    that it begins with, and so on
 //   layer       pane, name           shows a layer of the method over its image; "": none
 //   probe       pane, x, y           asks for what the pane keeps for a pixel
 //   pause       on                   stops the panes; the reference goes on
@@ -68,6 +70,7 @@ struct SetLight {
 struct SetMaterial {
   std::string name, key;
   std::optional<std::string> value;  // empty: the file's
+  uint32_t bases = 0;                // ListedMaterial::bases
 };
 struct ShowLayer {
   uint32_t pane = 0;
@@ -115,6 +118,7 @@ using ViewCommand =
 constexpr uint32_t kMostPanes = 2;
 // Images of files that a page shows without a scene, besides their reference.
 constexpr uint32_t kMostImages = 64;
+constexpr uint32_t kMostBases = 16;
 
 // Throws Error (badUsage) with one line: the mistake and what would be right.
 ViewCommand parseViewCommand(const std::string& text);

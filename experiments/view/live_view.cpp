@@ -77,10 +77,9 @@ LiveView::LiveView(const PreparedScene& prepared, ViewSettings settings,
       settings_(std::move(settings)),
       first_(settings_),
       reference_(store) {
-  firstSeed_ = settings_.panes.front().config.seed;
-  const Scene& scene = loaded_.scene->source();
-  if (isSceneFile(scene.source))
-    fileMaterials_ = sceneFileMaterials(scene.source, settingsOfScene(scene));
+  firstSeed_ = settings_.firstSeed.value_or(settings_.panes.front().config.seed);
+  loadedMaterials_ = materialsOf(loaded_, {});
+  fileMaterials_ = materialsOf(loaded_, settings_.materials);
   edited_ = editedBy(settings_.materials);
   prepared_ = litBy(edited_, settings_.lights);
   requireMemory(settings_);
@@ -119,8 +118,8 @@ void LiveView::apply(const ViewCommand& command) {
     become(history_.redone());
     return history_.redo(before);
   }
-  ViewChange change =
-      changedBy(command, settings_, {hasScene() ? &loaded_.scene->source() : nullptr, sources()});
+  ViewChange change = changedBy(
+      command, settings_, {hasScene() ? &loaded_.scene->source() : nullptr, sources(), firstSeed_});
   if (isSame(change.settings, settings_)) return;
   become(std::move(change.settings));
   history_.add(before, change.target, change.text);
@@ -400,14 +399,16 @@ void LiveView::resize(const std::vector<Pane*>& panes, const SessionConfig& befo
 
 // Does everything that may throw first: new sessions, then changes that a kept session may refuse.
 void LiveView::become(ViewSettings next) {
-  // Keep the current seeds: an undone step must not repeat an old run.
+  // Keep the current seeds unless one is set: an undone step must not repeat an old run.
   for (size_t i = 0; i < panes_.size(); ++i)
-    next.panes[i].config.seed = settings_.panes[i].config.seed;
+    if (settings_.panes[i].seedsSet == next.panes[i].seedsSet)
+      next.panes[i].config.seed = settings_.panes[i].config.seed;
   const bool isAnotherPicture = !isSamePicture(settings_, next);
   if (!differsInCameraAlone(settings_, next)) endMoving();
   // Other materials may need other kernels: sessions begin anew.
   const bool isEdited = settings_.materials != next.materials;
   const PreparedScene edited = isEdited ? editedBy(next.materials) : edited_;
+  auto materials = isEdited ? materialsOf(loaded_, next.materials) : fileMaterials_;
   const PreparedScene shown =
       isEdited || settings_.lights != next.lights ? litBy(edited, next.lights) : prepared_;
   std::vector<std::unique_ptr<Session>> made(panes_.size());
@@ -441,7 +442,8 @@ void LiveView::become(ViewSettings next) {
       pane.session = std::move(made[i]);
       pane.frames = 0;
     }
-    if (settings_.panes[i].source != next.panes[i].source) {
+    if (settings_.panes[i].source != next.panes[i].source ||
+        settings_.panes[i].seedsSet != next.panes[i].seedsSet) {
       pane.session->reset(next.panes[i].config.seed);
       pane.frames = 0;
       isChanged[i] = true;
@@ -454,6 +456,7 @@ void LiveView::become(ViewSettings next) {
                        (pane.hasOldLight || settings_.lights != next.lights);
   }
   settings_ = std::move(next);
+  fileMaterials_ = std::move(materials);
   edited_ = edited;
   prepared_ = shown;
   if (isAnotherPicture) return beginEpoch(true);

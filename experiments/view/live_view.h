@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/scene_file/scene_file.h"
+#include "core/scene/scene_file/scene_settings.h"
 #include "experiments/view/live_reference.h"
 #include "experiments/view/running_error.h"
 #include "experiments/view/view_history.h"
@@ -120,8 +120,10 @@ class LiveView {
   // Error of the frames of this epoch that had a reference.
   const RunningError& error(size_t pane) const { return panes_.at(pane).error; }
   const LiveReference& reference() const { return reference_; }
-  // The [[material]] tables of a scene file, as loaded; none of other scenes.
-  const std::vector<SceneFileMaterial>& fileMaterials() const { return fileMaterials_; }
+  // The [[material]] tables of a scene file, as loaded, and with the kinds that are set; none of
+  // other scenes.
+  const std::vector<ListedMaterial>& loadedMaterials() const { return loadedMaterials_; }
+  const std::vector<ListedMaterial>& fileMaterials() const { return fileMaterials_; }
   // Scene with the materials and the light that are set.
   const PreparedScene& shown() const { return prepared_; }
   const SceneCamera& camera() const { return settings_.camera; }
@@ -178,7 +180,7 @@ class LiveView {
   const PreparedScene loaded_;  // as it was loaded
   PreparedScene edited_;        // with the materials that are set and the light that was loaded
   PreparedScene prepared_;      // with the light that is shown
-  std::vector<SceneFileMaterial> fileMaterials_;
+  std::vector<ListedMaterial> loadedMaterials_, fileMaterials_;
   ViewImages images_;
   ViewSettings settings_;
   ViewSettings first_;  // settings for which the images were made

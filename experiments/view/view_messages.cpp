@@ -14,6 +14,7 @@
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/health_sum.h"
 #include "experiments/runner/registries/registries.h"
+#include "experiments/view/page_settings.h"
 #include "experiments/view/probe_values.h"
 #include "experiments/view/view_exposure.h"
 
@@ -108,34 +109,47 @@ Json sceneJson(const LiveView& view) {
         "environment " + view.loaded().environmentName}}};
 }
 
-Json parametersJson(const SessionConfig& config) {
+// A setting of a page: its description and what it is set to. `why`: why it has no effect.
+Json settingJson(const ParameterInfo& info, const ParameterValue& value, bool isSet,
+                 const std::string& group, const std::string& why) {
+  Json json = parameterJson(info);
+  json["part"] = group;
+  json["value"] = parameterValueJson(value);
+  json["is_set"] = isSet;
+  if (!why.empty()) json["unused"] = why;
+  return json;
+}
+
+Json parametersJson(const LiveView& view, const SessionConfig& config,
+                    const std::map<std::string, std::string>& unused) {
   const Method method = findMethod(config);
   const ParameterMap resolved = resolveParameters(method, config.parameters);
-  const std::vector<ParameterInfo> infos = method.parameters();
   Json all = Json::array();
-  size_t next = 0;  // parameters() lists the parameters of each part, in the order of parts()
-  for (const PartInfo* part : method.parts()) {
-    for (size_t i = 0; i < part->parameters.size(); ++i) {
-      const ParameterInfo& info = infos.at(next++);
-      Json json = parameterJson(info);
-      json["part"] = part->name;
-      json["value"] = parameterValueJson(resolved.at(info.name));
-      json["is_set"] = config.parameters.count(info.name) > 0;
-      all.push_back(std::move(json));
-    }
+  for (const auto& [group, summary, info] : groupedParameters(method)) {
+    const auto why = unused.find(info.name);
+    all.push_back(settingJson(info, resolved.at(info.name), config.parameters.count(info.name) > 0,
+                              group, why == unused.end() ? "" : why->second));
+    all.back()["part_help"] = summary;
+  }
+  for (const PageSetting& setting : paneSettings()) {
+    ParameterInfo info = setting.info;
+    if (info.name == "seed") info.defaultValue = int64_t{view.firstSeed()};
+    const ParameterValue value = setting.get(config);
+    all.push_back(settingJson(info, value, value != info.defaultValue, setting.group, ""));
   }
   return all;
 }
 
-Json transportJson(const SessionConfig& config) {
-  const std::vector<ParameterInfo> defaults = transportSchema().infos();
-  const std::vector<ParameterInfo> own = transportSchema().infos(config);
+Json sharedJson(const LiveView& view) {
+  const std::vector<PaneSettings>& panes = view.settings().panes;
+  std::vector<SessionConfig> rendering;
+  for (size_t i = 0; i < panes.size(); ++i)
+    if (view.renders(i)) rendering.push_back(panes[i].config);
   Json all = Json::array();
-  for (size_t i = 0; i < own.size(); ++i) {
-    Json json = parameterJson(defaults[i]);
-    json["value"] = parameterValueJson(own[i].defaultValue);
-    json["is_set"] = own[i].defaultValue != defaults[i].defaultValue;
-    all.push_back(std::move(json));
+  for (const PageSetting& setting : sharedSettings()) {
+    const ParameterValue value = sharedValue(setting, panes);
+    all.push_back(settingJson(setting.info, value, value != setting.info.defaultValue,
+                              setting.group, whyUnused(setting, rendering, *view.shown().scene)));
   }
   return all;
 }
@@ -147,39 +161,62 @@ Json materialValue(const ClosureParameter& p, const std::string& toml) {
   return isQuoted ? toml.substr(1, toml.size() - 2) : toml;
 }
 
-// Parameters of the materials of a scene file; the default is what the file has.
+// The kind of a material, as a parameter of it.
+ClosureParameter kindParameter() {
+  ClosureParameter p;
+  p.name = "kind";
+  p.help = "another kind has other parameters, and the file's own where they are the same";
+  p.kind = ClosureParameter::Kind::choice;
+  for (const MaterialKind& kind : materialKinds()) p.choices.push_back(kind.name);
+  return p;
+}
+
+// `own`: what the file has, as TOML.
+Json materialParameter(const LiveView& view, const ListedMaterial& of, const ClosureParameter& p,
+                       const std::string& own) {
+  Json json = {{"name", p.name}, {"help", p.help}};
+  json["default"] = materialValue(p, own);
+  std::string value = own;
+  bool isSet = false;
+  const std::string key = materialKey(of.bases, of.material.name, p.name);
+  for (const auto& [edited, text] : view.settings().materials) {
+    if (edited != key) continue;
+    value = text;
+    isSet = true;
+  }
+  if (p.kind == ClosureParameter::Kind::number) {
+    json["type"] = "number";
+    json["range"] = {p.lo, p.hi};
+  }
+  if (p.kind == ClosureParameter::Kind::color) {
+    json["type"] = "colour";
+    json["help"] = fmt::format("{}; from {:g} to {:g}", p.help, p.lo, p.hi);
+    json["has_picker"] = p.lo == 0.0 && p.hi == 1.0;
+  }
+  if (p.kind == ClosureParameter::Kind::choice) json["choices"] = p.choices;
+  json["value"] = materialValue(p, value);
+  json["is_set"] = isSet;
+  return json;
+}
+
+// Materials of a scene file and of those that it begins with: kinds and parameters; the default is
+// what the file has.
 Json materialsJson(const LiveView& view) {
   Json all = Json::array();
-  for (const SceneFileMaterial& material : view.fileMaterials()) {
+  for (size_t i = 0; i < view.fileMaterials().size(); ++i) {
+    const ListedMaterial& listed = view.fileMaterials()[i];
+    const SceneFileMaterial& material = listed.material;
+    const std::string& loadedKind = view.loadedMaterials().at(i).material.kind->name;
     Json parameters = Json::array();
-    for (size_t i = 0; i < material.kind->parameters.size(); ++i) {
-      const ClosureParameter& p = material.kind->parameters[i];
-      Json json = {{"name", p.name}, {"help", p.help}};
-      json["default"] = materialValue(p, material.values[i]);
-      std::string value = material.values[i];
-      const std::string key = fmt::format("material.{}.{}", material.name, p.name);
-      bool isSet = false;
-      for (const auto& [edited, text] : view.settings().materials) {
-        if (edited != key) continue;
-        value = text;
-        isSet = true;
-      }
-      if (p.kind == ClosureParameter::Kind::number) {
-        json["type"] = "number";
-        json["range"] = {p.lo, p.hi};
-      }
-      if (p.kind == ClosureParameter::Kind::color) {
-        json["type"] = "colour";
-        json["help"] = fmt::format("{}; from {:g} to {:g}", p.help, p.lo, p.hi);
-        json["has_picker"] = p.lo == 0.0 && p.hi == 1.0;
-      }
-      if (p.kind == ClosureParameter::Kind::choice) json["choices"] = p.choices;
-      json["value"] = materialValue(p, value);
-      json["is_set"] = isSet;
-      parameters.push_back(std::move(json));
+    parameters.push_back(materialParameter(view, listed, kindParameter(), loadedKind));
+    for (size_t k = 0; k < material.kind->parameters.size(); ++k) {
+      parameters.push_back(
+          materialParameter(view, listed, material.kind->parameters[k], material.values[k]));
     }
-    all.push_back(
-        {{"name", material.name}, {"kind", material.kind->name}, {"parameters", parameters}});
+    all.push_back({{"name", material.name},
+                   {"bases", listed.bases},
+                   {"kind", material.kind->name},
+                   {"parameters", parameters}});
   }
   return all;
 }
@@ -309,7 +346,14 @@ std::string stateText(const LiveView& view, const LoopState& loop) {
     json["layer"] = pane.layer;
     json["layers"] = view.hasScene() ? layersJson(pane.config) : Json::array();
     json["seed"] = pane.config.seed;
-    json["parameters"] = view.hasScene() ? parametersJson(pane.config) : Json::array();
+    json["parameters"] = Json::array();
+    json["unused"] = Json::object();
+    if (view.hasScene()) {
+      const std::map<std::string, std::string> unused = unusedParameters(pane.config);
+      json["parameters"] = parametersJson(view, pane.config, unused);
+      if (const auto mode = unused.find("mode"); mode != unused.end())
+        json["unused"]["mode"] = mode->second;
+    }
     panes.push_back(std::move(json));
   }
   if (view.hasScene()) {
@@ -328,7 +372,7 @@ std::string stateText(const LiveView& view, const LoopState& loop) {
                    {"mirrored", settings.camera.isMirrored}}},
                  {"width", size.width},
                  {"height", size.height},
-                 {"transport", view.hasScene() ? transportJson(size) : Json::array()},
+                 {"transport", view.hasScene() ? sharedJson(view) : Json::array()},
                  {"lights", lights},
                  {"materials", view.hasScene() ? materialsJson(view) : Json::array()},
                  {"paused", loop.isPaused},

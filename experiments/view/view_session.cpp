@@ -191,6 +191,7 @@ ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
     panes.push_back(methodConfig(suite, average, prepared, picture));
   }
   ViewSettings settings = settingsOf(prepared, panes);
+  settings.firstSeed = suite.seed;
   if (const auto motion = motionOf(suite, scene, prepared))
     settings.camera = cameraAt(*motion, suite.warmupFrames);
   LightFactors events;
@@ -204,6 +205,7 @@ ViewSettings settingsOfSuite(const Suite& suite, const SuiteScene& scene,
 }
 
 constexpr const char* kSourceKeys[kMostPanes] = {"a", "b"};
+constexpr const char* kSeedKeys[kMostPanes] = {"seed_a", "seed_b"};
 constexpr const char* kMethodWord = "method";
 
 // Reads "method", "reference" or the file of an image.
@@ -239,6 +241,10 @@ void readView(const ConfigTable& table, bool anyReference, ViewStart& start) {
   }
   if (!hasScene) start.settings = settingsOf(start.images);
   for (size_t i = 0; i < kMostPanes; ++i) {
+    if (hasScene && table.has(kSeedKeys[i])) {
+      const uint32_t most = ~uint32_t{0};
+      start.settings.panes[i].config.seed = uint32_t(table.getInteger(kSeedKeys[i], 0, 0, most));
+    }
     if (!table.has(kSourceKeys[i])) continue;
     const std::string source = sourceOf(table, kSourceKeys[i], start.images);
     if (!hasScene && source == kMethodSource)
@@ -255,8 +261,14 @@ std::string viewToml(const LiveView& view) {
   const ViewImages& images = view.images();
   const auto isMethod = [](const PaneSettings& pane) { return pane.source == kMethodSource; };
   const std::vector<PaneSettings>& panes = view.settings().panes;
-  if (images.list.empty() && std::all_of(panes.begin(), panes.end(), isMethod)) return "";
-  std::string text = "\n[view]\n";
+  std::string seeds;
+  for (size_t i = 0; i < panes.size() && view.hasScene(); ++i) {
+    const uint32_t seed = panes[i].config.seed;
+    if (seed != view.firstSeed()) seeds += fmt::format("{} = {}\n", kSeedKeys[i], seed);
+  }
+  if (images.list.empty() && std::all_of(panes.begin(), panes.end(), isMethod))
+    return seeds.empty() ? "" : "\n[view]\n" + seeds;
+  std::string text = "\n[view]\n" + seeds;
   const auto absolute = [](const fs::path& file) { return quoted(fs::absolute(file).string()); };
   if (!images.folder.empty()) {
     return text +

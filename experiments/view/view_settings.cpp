@@ -12,11 +12,15 @@
 #include "core/frame/method_settings.h"
 #include "core/frame/session.h"
 #include "core/scene/compiled/light_factor.h"
-#include "core/scene/scene_file/scene_file.h"
+#include "core/scene/compiled/compiled_scene.h"
+#include "experiments/runner/suite/prepare.h"
+#include "experiments/view/page_settings.h"
 
 namespace restlab {
 
 namespace {
+
+constexpr const char* kKindKey = "kind";
 
 // Keeps the parameters that the new method has, too.
 ParameterMap parametersFor(const SessionConfig& config) {
@@ -38,6 +42,23 @@ ParameterValue valueFor(const ParameterInfo& info, const ParameterValue& value) 
 bool hasLayer(const SessionConfig& config, const std::string& name) {
   const std::vector<std::string> names = findMethod(config).aovNames();
   return name.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Returns the description of that name, or null.
+template <class All, class NameOf>
+auto* findNamed(All& all, const std::string& name, const NameOf& nameOf) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return nameOf(one) == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+const PageSetting* findSetting(const std::vector<PageSetting>& all, const std::string& name) {
+  return findNamed(all, name, [](const PageSetting& one) { return one.info.name; });
+}
+
+std::vector<std::string> namesOf(const std::vector<PageSetting>& all) {
+  std::vector<std::string> names;
+  for (const PageSetting& one : all) names.push_back(one.info.name);
+  return names;
 }
 
 char letterOf(uint32_t pane) { return char('A' + int(pane)); }
@@ -98,20 +119,38 @@ struct Change {
                             fmt::join(keys, ", "), didYouMean(command.key, keys)));
     }
     config.*(setting->value) = command.value;
+    // Another backend gets what is set for it.
+    for (const PageSetting& shared : sharedSettings())
+      shared.set(config, sharedValue(shared, settings.panes));
     // Reset mode and cache: they belong to the integrator.
     if (setting->value == &SessionConfig::integrator) config.mode = config.cache = "";
     setMethod(pane, std::move(config));
     text = fmt::format("{}: {} {}", letterOf(command.pane), command.key, command.value);
   }
 
+  void setOfPane(const SetParameter& command, const PageSetting& setting) {
+    PaneSettings& pane = paneOf(command.pane);
+    const bool isSeed = setting.info.name == "seed";
+    const ParameterValue fallback =
+        isSeed ? ParameterValue(int64_t{choices.firstSeed}) : setting.info.defaultValue;
+    const ParameterValue value =
+        checkedValue("pane", setting.info, command.value.value_or(fallback));
+    if (setting.get(pane.config) == value) return;
+    setting.set(pane.config, value);
+    if (isSeed) ++pane.seedsSet;
+    text = fmt::format("{}: {} {}", letterOf(command.pane), command.name, settingText(value));
+  }
+
   void operator()(const SetParameter& command) {
     PaneSettings& pane = paneOf(command.pane);
+    if (const PageSetting* own = findSetting(paneSettings(), command.name))
+      return setOfPane(command, *own);
     const Method method = findMethod(pane.config);
     const std::vector<ParameterInfo> known = method.parameters();
-    const auto info = std::find_if(known.begin(), known.end(),
-                                   [&](const ParameterInfo& p) { return p.name == command.name; });
-    if (info == known.end()) {
-      std::vector<std::string> names;
+    const ParameterInfo* info =
+        findNamed(known, command.name, [](const ParameterInfo& p) { return p.name; });
+    if (info == nullptr) {
+      std::vector<std::string> names = namesOf(paneSettings());
       for (const ParameterInfo& p : known) names.push_back(p.name);
       failUsage(fmt::format("pane {}: has no parameter '{}'{}", command.pane, command.name,
                             didYouMean(command.name, names)));
@@ -164,20 +203,19 @@ struct Change {
   }
 
   void operator()(const SetTransport& command) {
-    const std::vector<ParameterInfo> known = transportSchema().infos();
-    const auto info = std::find_if(known.begin(), known.end(),
-                                   [&](const ParameterInfo& p) { return p.name == command.name; });
-    if (info == known.end()) {
-      std::vector<std::string> names;
-      for (const ParameterInfo& p : known) names.push_back(p.name);
-      failUsage(fmt::format("'{}': is no setting of light transport (known: {}){}", command.name,
+    const PageSetting* setting = findSetting(sharedSettings(), command.name);
+    if (setting == nullptr) {
+      const std::vector<std::string> names = namesOf(sharedSettings());
+      failUsage(fmt::format("'{}': is no setting of all panes (known: {}){}", command.name,
                             fmt::join(names, ", "), didYouMean(command.name, names)));
     }
+    const ParameterInfo& info = setting->info;
     const ParameterValue value =
-        checkedValue("transport", *info, command.value.value_or(info->defaultValue));
-    for (PaneSettings& pane : settings.panes)
-      transportSchema().assign(pane.config, {{info->name, value}});
-    text = fmt::format("{} {}", info->name, settingText(value));
+        checkedValue("transport", info, command.value.value_or(info.defaultValue));
+    for (PaneSettings& pane : settings.panes) setting->set(pane.config, value);
+    text = fmt::format("{} {}", info.name, settingText(value));
+    if (sharedValue(*setting, settings.panes) != value)
+      failUsage(fmt::format("{}: is nothing for the backend of any pane", text));
   }
 
   void operator()(const SetLight& command) {
@@ -189,11 +227,16 @@ struct Change {
   void operator()(const SetMaterial& command) {
     if (!isSceneFile(choices.scene->source))
       failUsage("material: the scene is no NAME.scene.toml, whose materials can be set");
-    const std::string key = fmt::format("material.{}.{}", command.name, command.key);
+    const std::string key = materialKey(command.bases, command.name, command.key);
     if ((key + command.value.value_or("")).find('&') != std::string::npos ||
         key.find('=') != std::string::npos)
       failUsage(fmt::format("{}: settings behind the name of a scene have no '&' or '='", key));
-    std::erase_if(settings.materials, [&](const auto& edit) { return edit.first == key; });
+    // Another kind has other parameters.
+    const bool isKind = command.key == kKindKey;
+    const std::string replaced = isKind ? materialKey(command.bases, command.name, "") : key;
+    std::erase_if(settings.materials, [&](const auto& edit) {
+      return isKind ? edit.first.starts_with(replaced) : edit.first == replaced;
+    });
     if (command.value) settings.materials.emplace_back(key, *command.value);
     text = fmt::format("{}: {} {}", command.name, command.key,
                        command.value ? "= " + *command.value : "as in the file");
@@ -235,7 +278,9 @@ struct Target {
   std::string operator()(const Resize&) { return "resolution"; }
   std::string operator()(const SetTransport& c) { return "transport " + c.name; }
   std::string operator()(const SetLight& c) { return "light " + c.name; }
-  std::string operator()(const SetMaterial& c) { return "material " + c.name + "." + c.key; }
+  std::string operator()(const SetMaterial& c) {
+    return fmt::format("material {} {}.{}", c.bases, c.name, c.key);
+  }
   std::string operator()(const ShowTable&) { return "table"; }
   template <class Other>
   std::string operator()(const Other&) {
@@ -246,6 +291,16 @@ struct Target {
 }  // namespace
 
 std::string targetOf(const ViewCommand& command) { return std::visit(Target{}, command); }
+
+std::vector<ListedMaterial> materialsOf(const PreparedScene& loaded, const MaterialEdits& edits) {
+  const Scene& scene = loaded.scene->source();
+  if (!isSceneFile(scene.source)) return {};
+  MaterialEdits kinds;
+  const std::string end = std::string(".") + kKindKey;
+  for (const auto& edit : edits)
+    if (edit.first.ends_with(end)) kinds.push_back(edit);
+  return listMaterials(scene.source, joinedSettings(settingsOfScene(scene), settingsText(kinds)));
+}
 
 std::string settingsText(const MaterialEdits& edits) {
   std::string text;
@@ -338,13 +393,14 @@ bool isSameCamera(const SceneCamera& a, const SceneCamera& b) {
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b) {
   return a.lights == b.lights && a.materials == b.materials && isSameCamera(a.camera, b.camera) &&
          isSameSize(a.panes.front().config, b.panes.front().config) &&
+         a.panes.front().config.components == b.panes.front().config.components &&
          referenceTransport(a.panes.front().config) == referenceTransport(b.panes.front().config);
 }
 
 bool isSame(const ViewSettings& a, const ViewSettings& b) {
   const auto isSamePane = [](const PaneSettings& x, const PaneSettings& y) {
     return isSameMethod(x.config, y.config) && x.config.parameters == y.config.parameters &&
-           x.layer == y.layer && x.source == y.source;
+           x.layer == y.layer && x.source == y.source && x.seedsSet == y.seedsSet;
   };
   return isSamePicture(a, b) &&
          std::equal(a.panes.begin(), a.panes.end(), b.panes.begin(), b.panes.end(), isSamePane);

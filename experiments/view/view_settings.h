@@ -2,20 +2,26 @@
 // and written to a file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/frame/session.h"
+#include "core/scene/scene_file/scene_settings.h"
 #include "experiments/view/command.h"
 
 namespace restlab {
+
+struct PreparedScene;  // experiments/runner/suite/prepare.h
 
 struct PaneSettings {
   SessionConfig config;  // mode and cache by name; only parameters that were given
   std::string layer;     // layer over the image; "": none
   // kMethodSource, kReferenceSource or the name of an image (view_images.h).
   std::string source = {};
+  // Grows with each seed that is set: undo gives such a seed back, but none of a restart.
+  uint32_t seedsSet = 0;
 };
 
 // Factors in the order they were set. The factor of `all` multiplies those of every light.
@@ -30,6 +36,8 @@ struct ViewSettings {
   LightFactors lights;              // lights that were set
   MaterialEdits materials;          // parameters that were set
   SceneCamera camera;
+  // Seed of the references; none: that of the first pane at the begin.
+  std::optional<uint32_t> firstSeed = {};
 };
 
 // Result of a command.
@@ -43,6 +51,7 @@ struct ViewChange {
 struct ViewChoices {
   const Scene* scene = nullptr;      // as loaded; null: only images are shown
   std::vector<std::string> sources;  // sources of panes
+  uint32_t firstSeed = 1;            // default of the panes' seeds
 };
 
 // Applies a command that sets something, such as SetSetting or CopyMethod. Throws Error (badUsage)
@@ -62,6 +71,10 @@ bool isSameCamera(const SceneCamera& a, const SceneCamera& b);
 bool isSame(const ViewSettings& a, const ViewSettings& b);
 // Compares the picture only, not the methods.
 bool isSamePicture(const ViewSettings& a, const ViewSettings& b);
+
+// The [[material]] tables of a scene file with the kinds that are set; none of other scenes. Throws
+// Error as loadSceneFile() does.
+std::vector<ListedMaterial> materialsOf(const PreparedScene& loaded, const MaterialEdits& edits);
 
 // The edits as they stand behind the name: "material.wall.alpha=0.3&...".
 std::string settingsText(const MaterialEdits& edits);

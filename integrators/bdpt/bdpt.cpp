@@ -74,6 +74,7 @@ std::string bdptUnused(const std::string& name, const ParameterMap& parameters) 
   const BdptSettings s = bdptSchema().read(parameters);
   if (name == "heuristic" && s.heuristic == "none" && s.strategy == "all")
     return "strategy = all needs weights: power";
+  if (name == "light_choice") return "lamps are chosen by power";
   return "";
 }
 

@@ -146,6 +146,7 @@ std::string whyLocalUnused(const std::string& name, const ParameterMap& paramete
   if (step != kNoStep && step < kShadows && name == "shadows") return sets;
   if (step != kNoStep && step < kOcclusion && name == "occlusion") return sets;
   if (step != kNoStep && step < kAll && name == "reflections") return sets;
+  if (name == "russian_roulette") return "reflections do not end at random";
   if (name == "divisions" && s.shading == rl::RL_LOCAL_PER_PIXEL)
     return "light is computed in each pixel";
   const bool hasLobe = s.model == rl::RL_LOCAL_PHONG || s.model == rl::RL_LOCAL_BLINN_PHONG;

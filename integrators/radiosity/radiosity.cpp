@@ -303,6 +303,7 @@ std::string whyUnused(const std::string& name, const ParameterMap& parameters) {
     return "solver = southwell keeps no factors";
   if (name == "factor_rays" && s.factors == rl::RL_RADIOSITY_POLYGON) return "factors = polygon";
   if (name == "blocks" && s.solver != kGaussSeidel) return "solver is not gauss_seidel";
+  if (name == "russian_roulette") return "light is gathered from elements, and no path ends";
   if (name == "shots" && !isSouthwell) return "solver is not southwell";
   return "";
 }

@@ -38,6 +38,9 @@ TEST(ViewCommands, AreReadWithTheirValues) {
   EXPECT_EQ(read<SetMaterial>(R"({"do":"material","name":"a","key":"b","value":"0.5"})").value,
             "0.5");
   EXPECT_FALSE(read<SetMaterial>(R"({"do":"material","name":"a","key":"b","value":null})").value);
+  EXPECT_EQ(
+      read<SetMaterial>(R"({"do":"material","name":"a","key":"b","value":null,"bases":2})").bases,
+      2u);
   EXPECT_EQ(read<ShowLayer>(R"({"do":"layer","pane":0,"name":"age"})").name, "age");
   EXPECT_EQ(read<Probe>(R"({"do":"probe","pane":0,"x":3,"y":4})").y, 4u);
   EXPECT_FALSE(read<Pause>(R"({"do":"pause","on":false})").on);

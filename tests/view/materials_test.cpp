@@ -14,8 +14,8 @@ namespace {
 
 class ViewMaterialsTest : public TemporaryFolder {
  protected:
-  std::string writeScene(double sigma) {
-    const std::filesystem::path file = folder() / "x.scene.toml";
+  std::string writeScene(double sigma, const std::string& name = "x") {
+    const std::filesystem::path file = folder() / (name + ".scene.toml");
     std::ofstream(file) << "base = \"cornell-box\"\n[[material]]\nname = \"clay\"\n"
                            "kind = \"oren_nayar\"\nsigma = "
                         << sigma << "\n[[assign]]\nmaterial = \"White\"\nto = \"clay\"\n";
@@ -78,6 +78,46 @@ TEST_F(ViewMaterialsTest, WhatTheFileWouldRefuseChangesNothing) {
   refused({"clay", "sigma", "0.3&camera.yfov=3"}, "no '&'");
   LiveView builtin{cornellBox(), {smallPane("path")}, {}};
   EXPECT_THROW(builtin.apply(SetMaterial{"White", "color", "0.3"}), Error);
+}
+
+// Another kind drops what the one before had alone. Materials of a scene file that the file begins
+// with are set, too.
+TEST_F(ViewMaterialsTest, OtherKindsAndThoseOfTheBase) {
+  writeScene(0.3);
+  writeScene(0.7, "rough");
+  const auto onTopOf = [&](const std::string& base) {
+    const std::filesystem::path file = folder() / ("on-" + base + ".scene.toml");
+    std::ofstream(file) << "base = \"" << base << ".scene.toml\"\n[[material]]\nname = \"paint\"\n"
+                        << "kind = \"oren_nayar\"\nsigma = 0.2\n"
+                           "[[assign]]\nmesh = \"ShortBlock\"\nto = \"paint\"\n";
+    return file.string();
+  };
+  ViewFacts facts;
+  facts.request.scene = onTopOf("x");
+  LiveView view = open(facts.request.scene);
+  ASSERT_EQ(view.fileMaterials().size(), 2u);
+  EXPECT_EQ(view.fileMaterials()[1].material.name, "clay");
+  EXPECT_EQ(view.fileMaterials()[1].bases, 1u);
+  view.apply(SetMaterial{"clay", "sigma", "0.7", 1});
+  LiveView other = open(onTopOf("rough"));
+  const std::vector<glm::vec3> rough = pictureOf(other);
+  EXPECT_EQ(pictureOf(view), rough);
+  view.apply(SetMaterial{"clay", "kind", "phong", 1});
+  EXPECT_EQ(view.settings().materials, (MaterialEdits{{"base.material.clay.kind", "phong"}}));
+  EXPECT_EQ(view.fileMaterials()[1].material.kind->name, "phong");
+  EXPECT_EQ(view.loadedMaterials()[1].material.kind->name, "oren_nayar");
+  EXPECT_NE(pictureOf(view), rough);
+  view.apply(SetMaterial{"clay", "power", "7", 1});
+  view.apply(SetMaterial{"paint", "kind", "diffuse"});
+  const std::filesystem::path file = folder() / "session.toml";
+  std::ofstream(file) << sessionToml(facts, view, "session");
+  EXPECT_EQ(startOfSuite(file).prepared.contentHash, view.shown().contentHash);
+  EXPECT_THROW(view.apply(SetMaterial{"clay", "sigma", "0.7", 1}), Error) << "phong has none";
+  EXPECT_THROW(view.apply(SetMaterial{"clay", "kind", "plaster", 1}), Error);
+  EXPECT_THROW(view.apply(SetMaterial{"clay", "sigma", "0.7", 2}), Error) << "a built-in scene";
+  for (int i = 0; i < 3; ++i) view.apply(Undo{});
+  EXPECT_EQ(view.fileMaterials()[1].material.kind->name, "oren_nayar");
+  EXPECT_EQ(pictureOf(view), rough);
 }
 
 // The session that is saved names them behind the scene's name.

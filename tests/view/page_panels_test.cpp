@@ -200,6 +200,23 @@ TEST_F(PageMaterialsTest, AreSetInTheScenePanel) {
   page(
       "await until(() => document.querySelector('[data-parameter=color] input').value === '[1, 1, "
       "1]');");
+  // Another kind has other controls. The address holds kinds and values.
+  set("kind", "select", "phong");
+  page(
+      "await until(() => document.querySelector('[data-material] [data-parameter=power]'));"
+      "window.steps = page.state.undo_text;");
+  set("power", "input[type=number]", "7");
+  page(R"(await until(() => page.state.undo_text !== steps);
+    const wanted = JSON.stringify(page.state.materials);
+    await until(() => decodeURIComponent(location.hash).includes('"power":7'));
+    const {hash} = location;
+    send({do: 'undo'});
+    send({do: 'undo'});
+    await until(() => page.state.materials[0].kind === 'oren_nayar');
+    if (!document.querySelector('[data-parameter=sigma]')) throw new Error('controls of before');
+    await until(() => location.hash !== hash);
+    location.hash = hash;
+    await until(() => JSON.stringify(page.state.materials) === wanted);)");
   if (const char* file = std::getenv("RESTLAB_SCREENSHOT")) browser_->screenshot(file);
 }
 

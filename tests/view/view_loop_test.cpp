@@ -45,7 +45,7 @@ TEST_F(ViewLoopTest, SaysHelloThenWhatIsSet) {
   EXPECT_FALSE(state["can_undo"].get<bool>());
   const Json cap = parameterNamed(state, 0, "confidence_cap");
   EXPECT_EQ(cap["value"], cap["default"]);
-  EXPECT_EQ(cap["part"], "restir_gi");
+  EXPECT_EQ(cap["part"], "reuse");
   EXPECT_FALSE(cap["is_set"].get<bool>());
   for (const char* key : {"range", "help", "source"}) EXPECT_TRUE(cap.contains(key)) << key;
 }

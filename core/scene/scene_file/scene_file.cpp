@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/scene_file/meshes.h"
+#include "core/scene/scene_file/scene_settings.h"
 #include "core/scene/scene_file/shapes.h"
 #include "core/scene/textures/daylight.h"
 
@@ -42,20 +43,26 @@ class Nesting {
 };
 thread_local int Nesting::depth_ = 0;
 
-// The scene of `base`: a built-in one, or a file relative to this one.
-Scene loadBase(const ConfigTable& table, const fs::path& folder) {
+// The scene of `base`: a built-in one, or a file relative to this one. `more`: settings of a scene
+// file.
+Scene loadBase(const ConfigTable& table, const fs::path& folder, const std::string& more) {
   const std::string base = table.getString("base", "");
   if (base.empty() && !table.has("shape"))
     table.fail("base",
                "no 'base', the scene to begin with (a built-in one or a glTF file), and no "
                "[[shape]]");
+  const auto [file, given] = splitSceneSettings(base);
+  if (!more.empty() && (base.empty() || !isSceneFile(file))) {
+    failInput(fmt::format("{}: {}{}: the file begins with no NAME.scene.toml", table.place("base"),
+                          kOfBaseSetting, more));
+  }
   if (base.empty()) return Scene();
+  const std::string settings = joinedSettings(given, more);
   const auto load = [&] {
     if (isBuiltinScene(base)) return makeBuiltinScene(base);
-    const auto [file, settings] = splitSceneSettings(base);
     const fs::path path = folder / file;
     std::error_code error;
-    if (!fs::exists(path, error)) return loadScene(base);
+    if (!fs::exists(path, error)) return loadScene(more.empty() ? base : file + "?" + settings);
     return loadScene(path.string() + (settings.empty() ? "" : "?" + settings));
   };
   return atPlace(table.place("base"), load);
@@ -285,52 +292,13 @@ EnvironmentMap readEnvironment(const ConfigTable& table, const fs::path& folder)
   return map;
 }
 
-// The table that a setting is about: "material.wall.roughness" or "light.lamp.intensity" by its
-// name, "camera.yfov", "environment.scale" and "background.radiance" by themselves.
-ConfigTable tableOf(const ConfigTable& table, const std::string& key, const std::string& place) {
-  const size_t first = key.find('.'), last = key.rfind('.');
-  const std::string group = key.substr(0, first);
-  const bool isNamed = group == "material" || group == "light";
-  const bool isSingle = group == "camera" || group == "environment" || group == "background";
-  if (first == std::string::npos || (first == last) == isNamed || !(isNamed || isSingle))
-    failInput(place +
-              ": material.NAME.KEY, light.NAME.KEY, camera.KEY, environment.KEY or "
-              "background.KEY expected");
-  if (isSingle) {
-    if (!table.has(group)) failInput(fmt::format("{}: the file has no [{}]", place, group));
-    return table.getTable(group);
-  }
-  const std::string name = key.substr(first + 1, last - first - 1);
-  std::vector<std::string> names;
-  for (const ConfigTable& one : table.getTables(group)) {
-    names.push_back(one.getString("name", ""));
-    if (names.back() == name) return one;
-  }
-  failInput(
-      fmt::format("{}: no [[{}]] is named '{}'{}", place, group, name, didYouMean(name, names)));
-}
-
-void applySettings(const ConfigTable& table, const std::string& settings, const fs::path& file) {
-  for (size_t begin = 0; begin < settings.size();) {
-    const size_t end = std::min(settings.find('&', begin), settings.size());
-    const std::string setting = settings.substr(begin, end - begin);
-    begin = end + 1;
-    const std::string place = file.string() + "?" + setting;
-    const size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      failInput(place + ": must be KEY=VALUE, such as material.wall.alpha=0.3");
-    const std::string key = setting.substr(0, equals);
-    tableOf(table, key, place)
-        .assign(key.substr(key.rfind('.') + 1), setting.substr(equals + 1), place);
-  }
-}
-
 Scene read(const fs::path& file, const std::string& settings) {
   const Nesting nesting(file);
   const ConfigTable table = ConfigTable::parseFile(file);
-  applySettings(table, settings, file);
+  const auto [own, ofBase] = splitBaseSettings(settings);
+  applySettings(table, own, file);
   const fs::path folder = file.parent_path();
-  Scene scene = loadBase(table, folder);
+  Scene scene = loadBase(table, folder, ofBase);
   scene.name = file.filename().string();
   scene.name.resize(scene.name.size() - std::string(kExtension).size());
   if (!settings.empty()) scene.name += "?" + settings;
@@ -441,8 +409,26 @@ std::vector<SceneFileMaterial> sceneFileMaterials(const fs::path& file,
                                                   const std::string& settings) {
   return asScene([&] {
     const ConfigTable table = ConfigTable::parseFile(file);
-    applySettings(table, settings, file);
+    applySettings(table, splitBaseSettings(settings).first, file);
     return materialsOf(table);
+  });
+}
+
+std::vector<ListedMaterial> listMaterials(const fs::path& file, const std::string& settings) {
+  return asScene([&] {
+    const Nesting nesting(file);
+    std::vector<ListedMaterial> all;
+    for (SceneFileMaterial& one : sceneFileMaterials(file, settings))
+      all.push_back({std::move(one), 0});
+    const ConfigTable table = ConfigTable::parseFile(file);
+    const auto [name, given] = splitSceneSettings(table.getString("base", ""));
+    const fs::path base = file.parent_path() / name;
+    std::error_code error;
+    if (!isSceneFile(name) || !fs::exists(base, error)) return all;
+    const std::string ofBase = splitBaseSettings(settings).second;
+    for (ListedMaterial& one : listMaterials(base, joinedSettings(given, ofBase)))
+      all.push_back({std::move(one.material), one.bases + 1});
+    return all;
   });
 }
 

@@ -20,7 +20,11 @@ function stateForAddress(state, viewer, settings) {
   if (!fitted) view.zoom = [x, y, scale].map(value => Number(value.toPrecision(6)));
   const lights = state.lights.filter(({factor}) => factor !== 1);
   const transport = state.transport.filter(info => info.is_set);
-  return {panes, camera: state.camera, width: state.width, height: state.height,
+  const materials = state.materials.map(({name, bases, parameters}) => {
+    const set = parameters.filter(info => info.is_set);
+    return {name, bases, set: Object.fromEntries(set.map(info => [info.name, info.value]))};
+  }).filter(({set}) => Object.keys(set).length);
+  return {panes, materials, camera: state.camera, width: state.width, height: state.height,
           lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
           transport: Object.fromEntries(transport.map(({name, value}) => [name, value])),
           table: state.table, paused: state.paused, view};
@@ -82,6 +86,13 @@ function commandsTowards(kept, state, settings) {
     const wanted = kept.transport[name] ?? fallback;
     if (wanted !== value) commands.push({do: 'transport', name, value: wanted});
   }
+  if (Array.isArray(kept.materials)) {
+    for (const material of state.materials) {
+      const of = kept.materials.find(({name, bases}) => name === material.name &&
+                                                        bases === material.bases);
+      commands.push(...commandsOfMaterial(material, of && isObject(of.set) ? of.set : {}));
+    }
+  }
   for (const {name, factor} of state.lights) {
     const wanted = (kept.lights || {})[name] ?? 1;
     if (wanted !== factor) commands.push({do: 'light', name, factor: wanted});
@@ -91,6 +102,24 @@ function commandsTowards(kept, state, settings) {
   }
   if (typeof kept.paused === 'boolean' && kept.paused !== state.paused) {
     commands.push({do: 'pause', on: kept.paused});
+  }
+  return commands;
+}
+
+// Returns the commands that give a material what is wanted to be set. Another kind drops what was
+// set before.
+function commandsOfMaterial(material, wanted) {
+  const is = Object.fromEntries(material.parameters.filter(info => info.is_set).map(
+      info => [info.name, info.value]));
+  const isOther = wanted.kind !== is.kind, commands = [];
+  if (isOther) commands.push(materialCommand(material, 'kind', wanted.kind ?? null));
+  for (const name of Object.keys(is)) {
+    if (!isOther && !(name in wanted)) commands.push(materialCommand(material, name, null));
+  }
+  for (const [name, value] of Object.entries(wanted)) {
+    if (name !== 'kind' && (isOther || is[name] !== value)) {
+      commands.push(materialCommand(material, name, value));
+    }
   }
   return commands;
 }

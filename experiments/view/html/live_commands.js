@@ -22,7 +22,8 @@ const FLY_ROWS = {
 const REPEATED = ['faster', 'slower', 'undo', 'redo'];
 
 // Commands that do nothing if only images of files are shown.
-const NEEDS_METHOD = ['restart', 'pause', 'probe', 'find-parameter', 'measure'];
+const NEEDS_METHOD = ['restart', 'pause', 'probe', 'find-parameter', 'measure', 'indirect'];
+
 
 function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
@@ -83,6 +84,11 @@ function makeLiveCommands(page) {
     ...page.hello.tables.map(name => ({
          id: `table-${name}`, keys: [], group: 'Images', title: `table ${name}`, when: hasTables,
          run: send({do: 'table', name})})),
+    ...componentsOf(page).map(value => ({
+         id: `component-${value}`, keys: [], group: session,
+         title: `light that is shown: ${value}`, run: () => showComponent(page, value)})),
+    {id: 'indirect', keys: ['i'], group: session, title: 'indirect light alone, or all light',
+     run: () => showComponent(page, componentOf(page).value === 'indirect' ? null : 'indirect')},
     {id: 'probe', keys: ['g'], group: session,
      title: 'probe the pixel under the pointer, or in the middle', run: () => page.probeHere()},
     {id: 'clear-probe', keys: ['G'], group: session, title: 'take the probe\'s marks away',

@@ -124,6 +124,7 @@ class LivePage {
     this.methods.show(state, this.hello);
     this.scene.show(state);
     this.header.show(state);
+    this.light.show();
     this.probe.showAge();
     this.viewer.set({});
     if (isFirst) this.begin(state);
@@ -170,7 +171,9 @@ class LivePage {
       ['probe', 'Probe', this.probe.element]
     ]);
     this.tabs.tabs.get('plots').tab.addEventListener('click', () => this.plots.show());
-    this.side.append(this.numbers.element, this.tabs.element, this.messages.element);
+    this.light = new LightChoice(this);
+    this.side.append(this.numbers.element, this.light.element, this.tabs.element,
+                     this.messages.element);
     this.header.fill();
     addKeys([this.viewer], this.commands);
     makeHelp(this.commands, LIVE_POINTER_HELP);

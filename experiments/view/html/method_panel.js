@@ -34,8 +34,9 @@ function settingChoices(key, pane, hello) {
 }
 
 class PanePanel {
-  constructor(index, page) {
-    Object.assign(this, {index, page, controls: new Map(), key: ''});
+  // `folded`: names of groups that are folded in every pane.
+  constructor(index, page, folded) {
+    Object.assign(this, {index, page, folded, controls: new Map(), key: ''});
     const {sources} = page.hello;
     this.source = makeSelect(sources.map(value => ({value, text: sourceText(value)})),
                              value => this.send({do: 'set', key: 'source', value}),
@@ -65,6 +66,7 @@ class PanePanel {
     if (key !== this.key) this.build(pane);
     this.key = key;
     for (const info of pane.parameters) this.controls.get(info.name).show(info);
+    joinReasons(this.controls.values());
   }
 
   showSettings(pane, hello) {
@@ -81,7 +83,13 @@ class PanePanel {
         return make('label', {}, make('span', {}, name), select.element);
       }));
     }
-    for (const [name, select] of this.selects) if (select) select.show(pane[name]);
+    for (const [name, select] of this.selects) {
+      if (!select) continue;
+      select.show(pane[name]);
+      const unused = (pane.unused || {})[name];
+      select.element.parentElement.classList.toggle('unused', Boolean(unused));
+      select.element.title = unused ? `no effect: ${unused}` : '';
+    }
     const mode = settingChoices('mode', pane, hello).find(one => one.value === pane.mode);
     this.settings.title = mode ? mode.title : '';
   }
@@ -111,13 +119,23 @@ class PanePanel {
       const control = new ParameterControl(info, value => this.page.session.sendNewest(
           key, {do: 'parameter', pane: this.index, name: info.name, value}));
       this.controls.set(info.name, control);
-      const part = info.part || '';
-      if (!parts.has(part)) parts.set(part, []);
+      const {part, part_help: title} = info;
+      if (!parts.has(part)) parts.set(part, [make('summary', {title: title || ''}, part)]);
       parts.get(part).push(control.element);
     }
-    this.parameters.replaceChildren(...Array.from(parts, ([part, elements]) => make(
-        'fieldset', {}, make('legend', {}, part || 'parameters'), ...elements)));
+    this.parameters.replaceChildren(...Array.from(
+        parts, ([part, elements]) => this.makeGroup(part, elements)));
     this.filter(this.words || []);
+  }
+
+  // Makes a group that can be folded, in all panes at once.
+  makeGroup(part, elements) {
+    const group = make('details', {class: 'part', 'data-part': part}, ...elements);
+    elements[0].addEventListener('click', () => {
+      if (group.open) this.folded.add(part);
+      else this.folded.delete(part);
+    });
+    return group;
   }
 
   // Shows the parameters that contain all words; returns how many.
@@ -128,8 +146,10 @@ class PanePanel {
       element.hidden = !words.every(word => text.includes(word));
       if (!element.hidden) ++count;
     }
+    joinReasons(this.controls.values());
     for (const part of this.parameters.children) {
       part.hidden = !part.querySelector('.parameter:not([hidden])');
+      part.open = words.length > 0 || !this.folded.has(part.dataset.part);
     }
     return count;
   }
@@ -138,7 +158,8 @@ class PanePanel {
 class MethodPanel {
   constructor(page, count) {
     this.page = page;
-    this.panes = Array.from({length: count}, (_, i) => new PanePanel(i, page));
+    const folded = new Set();
+    this.panes = Array.from({length: count}, (_, i) => new PanePanel(i, page, folded));
     this.choice = makeChoice('Pane', this.panes.map((_, i) => [
       String(i), `Pane ${PANE_NAMES[i]}`, `settings of pane ${PANE_NAMES[i]}`
     ]), i => this.open(Number(i)));
@@ -173,7 +194,10 @@ class MethodPanel {
 
   open(index) {
     this.choice.show(String(index));
-    this.panes.forEach((pane, i) => { pane.element.hidden = i !== index; });
+    this.panes.forEach((pane, i) => {
+      pane.element.hidden = i !== index;
+      pane.filter(pane.words || []);  // groups that were folded in the other pane
+    });
   }
 
   filter() {

@@ -34,9 +34,10 @@ class ParameterControl {
     more.className = 'more';
     more.setAttribute('aria-expanded', 'false');
     this.about = make('p', {class: 'about', hidden: ''}, this.aboutText(info));
+    this.unused = make('p', {class: 'why', hidden: ''});
     this.element = make('div', {class: 'parameter', 'data-parameter': info.name},
                         make('label', {for: this.id, title: info.help || ''}, info.name), more,
-                        this.reset, this.input.element, this.about);
+                        this.reset, this.input.element, this.unused, this.about);
     this.words = [info.name, info.help, info.part, info.source].join(' ').toLowerCase();
     // Show a value that was held back while the control had the focus, such as a refused one.
     this.element.addEventListener('focusout', () => {
@@ -72,9 +73,19 @@ class ParameterControl {
             get isBusy() { return document.activeElement === field; }};
   }
 
+  // Greys a control without effect and says why; it can still be set.
+  showUnused(reason) {
+    this.reason = reason ? `no effect: ${reason}` : '';
+    this.element.classList.toggle('unused', Boolean(reason));
+    this.element.title = this.reason;
+    this.unused.hidden = !reason;
+    setText(this.unused, this.reason);
+  }
+
   show(info) {
     this.info = info;
     this.isAsked = false;
+    this.showUnused(info.unused);
     const key = `${info.value} ${info.is_set}`;
     if (key === this.shown) return;
     this.shown = this.input.isBusy ? null : key;
@@ -82,6 +93,16 @@ class ParameterControl {
     this.element.classList.toggle('set', Boolean(info.is_set));
     if (!this.input.isBusy) this.input.show(info.value);
   }
+}
+
+// Shows a reason that neighbours share once, below the last of them.
+function joinReasons(controls) {
+  const shown = [...controls].filter(({element}) => !element.hidden);
+  shown.forEach(({element, reason, unused}, i) => {
+    const next = shown[i + 1];
+    unused.hidden = !reason || Boolean(next) && next.reason === reason &&
+                    next.element.parentElement === element.parentElement;
+  });
 }
 
 // A colour as linear Rec. 709 in text, "0.5" or "[0.7, 0.4, 0.2]", with a picker where its range is

@@ -1,8 +1,13 @@
-// Panel of the camera, the size, the settings of light transport, the lights and the materials.
+// Panel of the camera, the size, the settings of all panes, the lights and the materials.
 
 const SIZES = ['320x180', '640x360', '960x540', '1280x720', '1920x1080'];
 // Range of a light's factor on its slider; 0 is off.
 const LIGHT_RANGE = [0, 1000];
+
+// The command that sets a parameter of a material, as TOML; null: to what the file has.
+function materialCommand({name, bases}, key, value) {
+  return {do: 'material', name, bases, key, value: value === null ? null : String(value)};
+}
 
 class ScenePanel {
   constructor(page, hello) {
@@ -64,9 +69,11 @@ class ScenePanel {
     return this.section('resolution, pixels', form);
   }
 
+  // Makes the place for settings of all panes, in groups.
   makeTransport() {
     this.transport = make('div', {});
-    return this.section('light transport, of all panes', this.transport);
+    this.groups = new Map();
+    return this.transport;
   }
 
   showTransport(infos) {
@@ -79,8 +86,13 @@ class ScenePanel {
       const control = new ParameterControl(info, value => this.page.session.sendNewest(
           `transport ${info.name}`, {do: 'transport', name: info.name, value}));
       this.settings.set(info.name, control);
-      this.transport.append(control.element);
+      if (!this.groups.has(info.part)) {
+        this.groups.set(info.part, this.section(`${info.part}, of all panes`));
+        this.transport.append(this.groups.get(info.part));
+      }
+      this.groups.get(info.part).append(control.element);
     }
+    joinReasons(this.settings.values());
   }
 
   makeLights() {
@@ -111,22 +123,32 @@ class ScenePanel {
 
   showMaterials(materials) {
     this.materialSection.hidden = materials.length === 0;
-    for (const {name, kind, parameters} of materials) {
-      let controls = this.materials.get(name);
-      if (!controls) {
-        controls = new Map();
-        this.materials.set(name, controls);
-        for (const info of parameters) {
-          const send = value => this.page.session.sendNewest(`material ${name}.${info.name}`, {
-            do: 'material', name, key: info.name, value: value === null ? null : String(value)});
-          controls.set(info.name, new ParameterControl(info, send));
-        }
-        this.materialRows.append(make('details', {'data-material': name},
-            make('summary', {}, `${name}: ${kind}`),
-            ...[...controls.values()].map(control => control.element)));
+    for (const material of materials) {
+      const {name, bases, kind, parameters} = material, key = `${bases} ${name}`;
+      if (!this.materials.has(key)) {
+        const details = make('details', {'data-material': name});
+        this.materials.set(key, {details});
+        this.materialRows.append(details);
       }
-      for (const info of parameters) controls.get(info.name).show(info);
+      const known = this.materials.get(key);
+      if (known.kind !== kind) Object.assign(known, this.makeMaterial(material, known.details));
+      for (const info of parameters) known.controls.get(info.name).show(info);
     }
+  }
+
+  // Makes the controls of a material's kind.
+  makeMaterial({name, bases, kind, parameters}, details) {
+    const controls = new Map(parameters.map(info => {
+      const send = value => this.page.session.sendNewest(
+          `material ${bases} ${name}.${info.name}`,
+          materialCommand({name, bases}, info.name, value));
+      return [info.name, new ParameterControl(info, send)];
+    }));
+    const of = bases ? `, of the scene file that it begins with${bases > 1 ? ` (${bases})` : ''}`
+                     : '';
+    details.replaceChildren(make('summary', {}, `${name}: ${kind}${of}`),
+                            ...[...controls.values()].map(control => control.element));
+    return {kind, controls};
   }
 
   makeAbout() {
