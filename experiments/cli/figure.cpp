@@ -17,6 +17,7 @@
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/beside_reference.h"
 #include "experiments/runner/reference/reference_error.h"
+#include "experiments/runner/tables/preview.h"
 
 namespace restlab {
 
@@ -25,7 +26,7 @@ namespace {
 struct FigureOptions {
   std::string reference, output, labels, title, metric = "mse";
   std::vector<std::string> images, crops;
-  double exposure = 0.0;  // 0: from the file
+  double exposure = 0.0;  // 0: of the reference
   uint32_t scale = 0;     // 0: from the crops
   bool cropErrors = false, anyReference = false;
   std::string series, resolution;
@@ -109,17 +110,6 @@ std::vector<std::string> labelsOf(const FigureOptions& options) {
                           options.labels, given.size(), options.images.size()));
   }
   return given;
-}
-
-// Returns --exposure, else the preview exposure that `run` has stored, else 1.
-float exposureOf(const FigureOptions& options, const Reference& reference) {
-  if (options.exposure > 0.0) return float(options.exposure);
-  const auto found = reference.metadata.find("preview_exposure");
-  const float exposure =
-      found == reference.metadata.end() ? 0.0f : std::strtof(found->second.c_str(), nullptr);
-  if (!(exposure > 0.0f) || std::isinf(exposure)) return 1.0f;
-  logDetail(fmt::format("{}: exposure {} of its previews", options.reference, exposure));
-  return exposure;
 }
 
 Image cropped(const Image& image, const Crop& crop) {
@@ -258,7 +248,8 @@ void makeFigure(const FigureOptions& options) {
                    : scene != reference.metadata.end() ? scene->second
                                                        : labels.back();
   spec.metric = metric.name;
-  spec.exposure = exposureOf(options, reference);
+  spec.exposure =
+      options.exposure > 0.0 ? float(options.exposure) : previewExposure(reference.mean);
   checkFigureSize(spec);
 
   const Figure figure = layOutFigure(spec);
@@ -317,7 +308,7 @@ Action addFigureVerb(CLI::App& app) {
   verb->add_option("--metric", options->metric, "restlab list metrics (default mse)");
   verb->add_option(
           "--exposure", options->exposure,
-          "factor on radiance (default: that of run's previews, else 1; of a series: by its "
+          "factor on radiance (default: by the reference, as in the report; of a series: by its "
           "last picture)")
       ->transform(numberFrom(1e-12, 1e12));
   verb->add_option("--scale", options->scale, "output pixels a pixel of a crop")

@@ -71,8 +71,11 @@ TEST_F(FigureTest, LabelsAreWhatTellsTheNamesApart) {
 }
 
 TEST_F(FigureTest, PngToo) {
-  ASSERT_EQ(run("figure -r ref.exr a.exr --crop 0,0,8,8 --scale 4 -o strip.png").code, 0);
+  const ProgramResult result = run("figure -r ref.exr a.exr --crop 0,0,8,8 --scale 4 -o strip.png");
+  ASSERT_EQ(result.code, 0);
   EXPECT_EQ(read("strip.png").substr(1, 3), "PNG");
+  EXPECT_NE(result.err.find("exposure 0.36"), std::string::npos)
+      << "makes the reference, 0.5, mid grey: " << result.err;
 }
 
 TEST_F(FigureTest, HalvesAreUsedAsByCompare) {

@@ -295,12 +295,13 @@ void Browser::waitFor(const std::string& condition, double seconds) {
   }
 }
 
-void Browser::mouse(const char* type, double x, double y, int buttons, int clicks) {
+void Browser::mouse(const char* type, double x, double y, int buttons, int clicks, bool shift) {
   call("Input.dispatchMouseEvent", {{"type", type},
                                     {"x", x},
                                     {"y", y},
                                     {"button", buttons || clicks ? "left" : "none"},
                                     {"buttons", buttons},
+                                    {"modifiers", shift ? 8 : 0},
                                     {"clickCount", clicks}});
 }
 
@@ -312,15 +313,15 @@ void Browser::click(double x, double y) {
   mouse("mouseReleased", x, y, 0, 1);
 }
 
-void Browser::drag(double x0, double y0, double x1, double y1) {
+void Browser::drag(double x0, double y0, double x1, double y1, bool shift) {
   moveMouse(x0, y0);
-  mouse("mousePressed", x0, y0, 1, 1);
+  mouse("mousePressed", x0, y0, 1, 1, shift);
   constexpr int kSteps = 4;
   for (int i = 1; i <= kSteps; ++i) {
     const double at = double(i) / kSteps;
-    mouse("mouseMoved", x0 + at * (x1 - x0), y0 + at * (y1 - y0), 1, 0);
+    mouse("mouseMoved", x0 + at * (x1 - x0), y0 + at * (y1 - y0), 1, 0, shift);
   }
-  mouse("mouseReleased", x1, y1, 0, 1);
+  mouse("mouseReleased", x1, y1, 0, 1, shift);
 }
 
 void Browser::wheel(double x, double y, double deltaY) {

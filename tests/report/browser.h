@@ -38,7 +38,7 @@ class Browser {
   // Real events at window positions in CSS pixels.
   void moveMouse(double x, double y);
   void click(double x, double y);
-  void drag(double x0, double y0, double x1, double y1);
+  void drag(double x0, double y0, double x1, double y1, bool shift = false);
   void wheel(double x, double y, double deltaY);
   // Key named by `KeyboardEvent.key` and `.code`: press("2", "Digit2").
   void press(const std::string& key, const std::string& code, bool shift = false);
@@ -62,7 +62,7 @@ class Browser {
 
   Json call(const std::string& method, const Json& parameters);
   void note(const Json& event);
-  void mouse(const char* type, double x, double y, int buttons, int clicks);
+  void mouse(const char* type, double x, double y, int buttons, int clicks, bool shift = false);
   void sendKey(const char* type, const std::string& key, const std::string& code, bool shift);
 
   std::shared_ptr<BrowserProcess> process_;

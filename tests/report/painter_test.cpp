@@ -282,6 +282,38 @@ constexpr const char* kCompare = R"(
     return [most, more, any];
   };)";
 
+// Each channel as a grey picture; what is not finite in any channel stays marked.
+TEST_F(PainterTest, SingleChannelsAreGrey) {
+  const auto valueOf = [](const glm::vec3& p, int channel) {
+    return channel < 3 ? p[channel] : 0.2126f * p.x + 0.7152f * p.y + 0.0722f * p.z;
+  };
+  for (int channel = 0; channel < 4; ++channel) {
+    const std::string name(1, "rgby"[channel]);
+    const std::string start = "state({channel: '" + name + "'}); painter.use('2d');";
+    for (size_t i = 0; i < images_.size(); ++i) {
+      const std::string view = fmt::format("{{image: {}, isError: false}}", i);
+      const std::vector<int> bytes =
+          page(start + "return Array.from(bytes(painter.layer(" + view + ")));");
+      ASSERT_EQ(bytes.size(), 4 * images_[i].pixels.size());
+      for (size_t k = 0; k < images_[i].pixels.size(); ++k) {
+        const glm::vec3& p = images_[i].pixels[k];
+        const int* shown = &bytes[4 * k];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+          EXPECT_TRUE(shown[0] != shown[1] || shown[1] != shown[2]) << name << " " << k;
+          continue;
+        }
+        const float value = 2.0f * valueOf(p, channel);
+        ASSERT_EQ(shown[0], shown[1]);
+        ASSERT_EQ(shown[0], shown[2]);
+        ASSERT_GE(shown[0], srgb(value * (1.0f - 1e-6f))) << name << ", pixel " << k;
+        ASSERT_LE(shown[0], srgb(value * (1.0f + 1e-6f))) << name << ", pixel " << k;
+      }
+      const Json found = page(kCompare + start + fmt::format("return compare({}, false);", i));
+      EXPECT_LE(found[0], 1) << "by WebGL, " << name << " of image " << i;
+    }
+  }
+}
+
 TEST_F(PainterTest, WebGlPaintsTheSame) {
   for (const int i : {0, 1, 2}) {
     for (const double stops : {0.0, -5.0, 4.5}) {

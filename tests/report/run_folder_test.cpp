@@ -129,6 +129,16 @@ TEST_F(RunFolder, PixelsAreThoseOfTheFiles) {
   screenshot("run", true);
 }
 
+// The page's own rule finds the exposure that the program wrote down.
+TEST_F(RunFolder, TheExposureIsThatOfThePage) {
+  const std::string exposure = "document.querySelector('.viewer').viewer.painter.exposure";
+  const double written = browser_->evaluate(exposure);
+  browser_->evaluate("document.querySelector('.viewer').viewer.setExposure(1e-3)");
+  browser_->press("a", "KeyA");
+  settle();
+  EXPECT_NEAR(browser_->evaluate(exposure), written, 1e-5 * written);
+}
+
 TEST_F(RunFolder, HasItsParts) {
   // Plots over time, over frames and of single frames; bars.
   EXPECT_EQ(browser_->evaluate("document.querySelectorAll('figure svg').length"), 4);

@@ -14,7 +14,8 @@ set(RL_REPORT_TESTS
   report/viewer_test.cpp
   report/xml.cpp
   report/colour_distance.cpp
+  report/tools_test.cpp
 )
 set(RL_REPORT_LIBRARIES rl_report)
 # Their tests share a browser.
-set(RL_REPORT_SUITES PainterTest ReportPage RunFolder ViewerTest)
+set(RL_REPORT_SUITES PainterTest ReportPage RunFolder ViewerTest ViewerToolsTest)

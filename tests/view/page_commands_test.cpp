@@ -77,6 +77,17 @@ const copied = async () => {
   }
 };
 first['copy-ab'] = first['copy-ba'] = copied;
+const rectangleWays = {};
+for (const way of ['left', 'right', 'up', 'down']) {
+  for (const verb of ['move', 'size']) {
+    rectangleWays[`rectangle-${verb}-${way}`] = (b, a) => a.rectangle.join() !== b.rectangle.join();
+    first[`rectangle-${verb}-${way}`] = () => {
+      viewer.set({rectangle: [9, 9, 20, 20]});
+      viewer.rectangle.setOn(true);
+    };
+  }
+}
+first['rectangle-off'] = () => viewer.set({rectangle: [9, 9, 20, 20]});
 
 const reset = async () => {
   if (dialog()) dialog().close();
@@ -95,8 +106,10 @@ const reset = async () => {
   page.recorder.isRecording = false;
   page.probe.clear();
   page.tabs.show('methods');
+  viewer.rectangle.clear();
   viewer.set({mode: 'wipe', current: 1, compare: 2, error: 'none', stops: 1.5, tone: 'srgb',
-              log: {}, held: false});
+              log: {}, held: false, channel: 'g', histogram: false});
+  viewer.setExposure(7);
   viewer.fit();
   viewer.draw();
   viewer.zoom(2);
@@ -118,6 +131,7 @@ const snapshot = () => ({
   bookmarks: page.bookmarks.list.length, isRecording: page.recorder.isRecording,
   sources: page.state.panes.map(pane => pane.source).join(),
   measures: page.measurement.isRunning,
+  exposure: viewer.painter.exposure, isChoosing: viewer.rectangle.isOn,
   marks: viewer.images.filter(image => image.marks).length, files: tools.files.join(),
   hasFocus: document.activeElement === root, isSearching:
       document.activeElement === page.methods.search && !page.methods.search.value
@@ -135,6 +149,12 @@ const effects = {
   'previous-error': (b, a) => a.error === 'relative', log: (b, a) => a.log !== b.log,
   brighter: (b, a) => a.stops === 2, darker: (b, a) => a.stops === 1,
   'exposure-reset': (b, a) => a.stops === 0, tone: (b, a) => a.tone === 'false',
+  'auto-exposure': (b, a) => a.stops === 0 && a.exposure !== b.exposure,
+  channel: (b, a) => a.channel === 'b', 'previous-channel': (b, a) => a.channel === 'r',
+  histogram: (b, a) => a.histogram && document.querySelector('.histogram').offsetHeight > 50,
+  link: () => document.querySelector('.messages').textContent.includes('address of this view'),
+  rectangle: (b, a) => a.isChoosing && a.rectangle.length === 4,
+  'rectangle-off': (b, a) => a.rectangle === null, ...rectangleWays,
   palette: (b, a) => a.dialog === 'palette', help: (b, a) => a.dialog === 'help',
   faster: (b, a) => a.speed > b.speed, slower: (b, a) => a.speed < b.speed,
   'camera-mode': (b, a) => a.camera === (b.camera === 'fly' ? 'none' : 'fly'),

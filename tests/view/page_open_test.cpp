@@ -68,6 +68,39 @@ TEST_F(PageOpenTest, ReloadComesBackToTheSame) {
   page("await until(() => seen[0] && seen[1] && viewer.images[0].width === 48);");
 }
 
+TEST_F(PageOpenTest, ALinkShowsTheSameAgain) {
+  open();
+  page(R"(await until(() => location.hash.length > 1);
+    viewer.set({mode: 'single', current: 1, channel: 'b', stops: 0.5, histogram: true,
+                rectangle: [3, 4, 20, 30]});
+    viewer.zoom(4);
+    viewer.setExposure(0.25);
+    window.kept = new URL(viewer.data.link()).hash;
+    viewer.set({mode: 'side', current: 0, channel: 'rgb', stops: 0, histogram: false,
+                rectangle: null});
+    viewer.fit();
+    viewer.setExposure(1);
+    await until(() => location.hash !== kept);
+    location.hash = kept;
+    await until(() => viewer.state.mode === 'single');)");
+  EXPECT_EQ(page("const {current, channel, stops, histogram, rectangle} = viewer.state; return "
+                 "[current, channel, stops, histogram, rectangle, viewer.painter.exposure, "
+                 "new URL(viewer.data.link()).hash === kept];"),
+            (Json{1, "b", 0.5, true, {3, 4, 20, 30}, 0.25, true}));
+  const auto noticeOf = [&](const std::string& hash) {
+    return page("location.hash = " + Json(hash).dump() +
+                "; const notices = () => document.querySelectorAll('.message');"
+                "await until(() => notices().length); const {textContent} = notices()[0];"
+                "notices().forEach(one => one.remove()); return textContent;");
+  };
+  EXPECT_EQ(noticeOf("#%7Bpanes").get<std::string>().find("the address is cut off"), 0u);
+  const std::string wrong = noticeOf(
+      "#%7B%22panes%22%3A%5B%5D%2C%22view%22%3A%7B%22mode%22%3A7%2C"
+      "%22zoom%22%3A%5B1%5D%7D%7D");
+  EXPECT_EQ(wrong.find("the address has no possible value of mode, zoom"), 0u) << wrong;
+  EXPECT_EQ(page("return viewer.state.mode;"), "single");
+}
+
 TEST_F(PageOpenTest, ReloadTakesNothingBack) {
   open();
   page(R"(await until(() => location.hash.length > 1);

@@ -71,6 +71,9 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
       "await until(() => page.last.panes[0].frame > 2); page.probeAt({x: 20, y: 30});"
       "await until(() => page.probe.answers[0] && page.probe.answers[1]);");
   pause();
+  page(
+      "await until(() => page.probe.answers.every(one => one.frame === "
+      "page.last.panes[one.pane].frame));");
   const std::string hint = "return document.querySelector('.probe .hint').textContent;";
   EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos);
   const Json first = page("return page.probe.answers.map(one => [one.frame, one.epoch]);");
@@ -88,6 +91,33 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos)
       << page(hint);
   EXPECT_EQ(page("return document.querySelectorAll('.message.error').length;"), 0);
+}
+
+TEST_F(PagePanelsTest, AProbeFollowsFramesUnlessItIsHeld) {
+  // No real click: the box of numbers above grows while frames go on.
+  const std::string toggle = "document.querySelector('#probe-hold').click();";
+  page(R"(page.probeAt({x: 20, y: 30});
+    await until(() => page.probe.answers[0] && page.probe.answers[1]);
+    const first = page.probe.answers.map(one => one.frame);
+    await until(() => page.probe.answers.every((one, i) => one.frame > first[i]));)");
+  page(toggle);
+  // Answers that were asked for before still come.
+  page("await until(() => !page.probe.asked.some(Boolean));");
+  const Json held = page("return page.probe.answers.map(one => one.frame);");
+  page(R"(window.sent = [];
+    const sendNow = page.session.send, from = page.last.panes[0].frame;
+    page.session.send = command => {
+      sent.push(command.do);
+      return sendNow.call(page.session, command);
+    };
+    await until(() => page.last.panes[0].frame > from + 10);)");
+  EXPECT_EQ(page("return sent;"), Json::array());
+  EXPECT_EQ(page("return page.probe.answers.map(one => one.frame);"), held);
+  const std::string hint = text(".probe .hint");
+  EXPECT_EQ(hint.find("A: held at frame " + held[0].dump() + ","), 0u) << hint;
+  page(toggle);
+  page("await until(() => page.probe.answers[0].frame > " + held[0].dump() + ");");
+  EXPECT_EQ(text(".probe .hint").find("held"), std::string::npos);
 }
 
 // Estimates against a noisy reference may be negative; leaving them out would lift the curve.

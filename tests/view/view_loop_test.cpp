@@ -9,7 +9,6 @@
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/suite/suite.h"
 #include "experiments/view/probe_values.h"
-#include "experiments/view/view_exposure.h"
 #include "experiments/view/view_session.h"
 #include "experiments/view/view_session_file.h"
 #include "tests/view/loop_fixture.h"
@@ -48,16 +47,6 @@ TEST_F(ViewLoopTest, SaysHelloThenWhatIsSet) {
   EXPECT_EQ(cap["part"], "reuse");
   EXPECT_FALSE(cap["is_set"].get<bool>());
   for (const char* key : {"range", "help", "source"}) EXPECT_TRUE(cap.contains(key)) << key;
-}
-
-// Blocks at the edge have fewer pixels.
-TEST(ViewExposures, AreThoseOfMeans) {
-  Image image(10, 4);
-  for (size_t i = 0; i < image.pixels.size(); i += 2) image.pixels[i] = glm::vec3(1.0f);
-  const Image means = blockMeans(image, 4);
-  EXPECT_EQ(means.width, 3u);
-  EXPECT_EQ(means.height, 1u);
-  for (const glm::vec3& mean : means.pixels) EXPECT_FLOAT_EQ(mean.x, 0.5f);
 }
 
 TEST_F(ViewLoopTest, ShowsWhatSessionsRender) {

@@ -31,6 +31,7 @@ const PAN_STEP = 60;  // CSS pixels
 const isErrorView = viewer => viewer.state.error !== 'none';
 
 const VIEWER_COMMANDS = [
+  ...rectangleCommands(),
   ...imageCommands(),
   {id: 'previous', keys: ['ArrowLeft'], group: 'Images', title: 'previous image',
    run: viewer => viewer.step(-1)},
@@ -76,6 +77,8 @@ const VIEWER_COMMANDS = [
    run: viewer => viewer.set({stops: 0})},
   {id: 'tone', keys: ['t'], group: 'Errors and colours', title: 'sRGB or false colour',
    run: viewer => viewer.toggleTone()},
+
+  ...TOOL_COMMANDS,
 
   {id: 'palette', keys: ['Ctrl+k'], group: 'Help', title: 'search all commands', isAnywhere: true,
    inFields: true, run: () => document.dispatchEvent(new CustomEvent('palette'))},

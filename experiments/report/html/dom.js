@@ -26,6 +26,15 @@ function makeChoice(label, choices, choose) {
   };
 }
 
+// Makes a list to choose from. `choices`: [value, label, help]...
+function makeList(label, help, choices, choose) {
+  const element = make('select', {'aria-label': label, title: help},
+                       ...choices.map(([value, text, title]) => make('option', {value, title},
+                                                                     text)));
+  element.addEventListener('change', () => choose(element.value));
+  return {element, show: value => { element.value = value; }};
+}
+
 function makeButton(text, help, action) {
   const button = make('button', {type: 'button', title: help, 'aria-label': help}, text);
   button.addEventListener('click', action);

@@ -3,7 +3,7 @@
 // Pointer actions, which have no keys.
 const POINTER_HELP = [
   ['wheel', 'zoom about the pointer'],
-  ['drag', 'move the picture']
+  ['drag', 'move the picture; with Shift choose a rectangle']
 ];
 
 // Returns [keys, text] of the commands of a group.

@@ -61,8 +61,8 @@ function showLegend(element, state, painter, images) {
   const scale = isError ? painter.errorScale() :
       state.error === 'none' && state.tone === 'false' ? painter.luminanceScale() : null;
   const key = [
-    state.error, state.compare, state.tone, painter.factor, scale && scale.lo, scale && scale.hi,
-    scale && scale.log, images.some(image => image.nonfinite.length),
+    state.error, state.compare, state.tone, state.channel, painter.factor, scale && scale.lo,
+    scale && scale.hi, scale && scale.log, images.some(image => image.nonfinite.length),
     ...images.map(image => `${image.name} ${image.overlay ? image.overlay.name : ''}`),
     ...images.map((image, i) => overlayEnd(painter, image, i)),
     ...images.map((image, i) => image.overlay && painter.overlayText ? painter.overlayText(i) : '')
@@ -70,6 +70,8 @@ function showLegend(element, state, painter, images) {
   if (element.dataset.key === key) return;
   element.dataset.key = key;
   const parts = [], names = images.map(image => image.name);
+  const isOne = ['r', 'g', 'b'].includes(state.channel);
+  const what = isOne ? CHANNELS[state.channel].title : 'luminance';
   if (isError) {
     const info = ERRORS[state.error];
     parts.push(make('p', {class: 'legend-title'}, make('b', {}, info.title),
@@ -80,11 +82,12 @@ function showLegend(element, state, painter, images) {
   } else if (state.error !== 'none') {
     parts.push(make('p', {class: 'legend-title'}, 'No error yet: an image is on its way.'));
   } else if (state.tone === 'false') {
-    parts.push(make('p', {class: 'legend-title'}, make('b', {}, 'luminance'),
-                    ': 0.2126 R + 0.7152 G + 0.0722 B of linear radiance; logarithmic'));
+    parts.push(make('p', {class: 'legend-title'}, make('b', {}, what), isOne ? ''
+        : ': 0.2126 R + 0.7152 G + 0.0722 B of linear radiance', '; logarithmic'));
     parts.push(legendBar(scale));
   } else {
-    parts.push(make('p', {class: 'legend-title'}, make('b', {}, 'radiance'),
+    const name = state.channel === 'rgb' ? 'radiance' : what;
+    parts.push(make('p', {class: 'legend-title'}, make('b', {}, name),
                     ` \u00d7 ${shortNumber(painter.factor)} as sRGB, clipped to 0 and 1`));
   }
   if (images.some(image => image.nonfinite.length)) {

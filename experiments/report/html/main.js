@@ -1,5 +1,8 @@
 // Starts the page: tables and the first viewer at once, other viewers when they come near the
-// window.
+// window or when the address asks for them.
+
+const roots = Array.from(document.querySelectorAll('.viewer')), viewers = [], opening = new Map();
+const address = new ReportAddress();
 
 async function openViewer(root) {
   const data = JSON.parse(document.getElementById(root.dataset.source).textContent);
@@ -19,17 +22,39 @@ async function openViewer(root) {
     images.push({name, role, mse, ms, width: data.width, height: data.height, data: values,
                  nonfinite: nonfinitePixels(values), version: 1});
   }
+  data.link = () => address.write(viewer);
   const viewer = new Viewer(root, data, images);
   if (data.first !== undefined) viewer.set({current: data.first});
+  viewer.onDrawn = () => address.note(viewer);
   root.viewer = viewer;
+  viewers.push(viewer);
   return viewer;
+}
+
+// Opens a viewer once.
+function start(root) {
+  if (!opening.has(root)) opening.set(root, openViewer(root));
+  return opening.get(root);
+}
+
+// Shows the view that the address names.
+async function showAddress() {
+  let wrong = '';
+  try {
+    const found = readAddress(location.hash, roots);
+    if (!found) return;
+    const viewer = await start(found.root);
+    found.root.scrollIntoView({block: 'center'});
+    const fields = applyViewState(found.view, viewer);
+    if (fields.length) wrong = `it has no possible value of ${fields.join(', ')}`;
+  } catch (error) {
+    wrong = error.message;
+  }
+  if (wrong) (await start(roots[0])).notice(`The address shows no view as it was: ${wrong}.`);
 }
 
 document.querySelectorAll('table.results, table.health').forEach(makeSortable);
 
-const viewers = [];
-const start = root => openViewer(root).then(viewer => viewers.push(viewer));
-const roots = Array.from(document.querySelectorAll('.viewer'));
 if (roots.length) {
   // The observer reports nothing before the window's first frame, and a browser that only takes a
   // screenshot of the page may not have one in time.
@@ -45,4 +70,6 @@ if (roots.length) {
   addKeys(viewers, VIEWER_COMMANDS);
   makeHelp(VIEWER_COMMANDS);
   new Palette(VIEWER_COMMANDS, focused => keyTarget(viewers, focused));
+  window.addEventListener('hashchange', showAddress);
+  showAddress();
 }

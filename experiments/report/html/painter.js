@@ -74,11 +74,19 @@ class Painter {
     return this.srgbEncoder;
   }
 
+  // Returns image i, or the grey image of the chosen channel. Requires its data.
+  channelOf(i) {
+    const image = this.images[i], {channel} = this.state;
+    if (channel === 'rgb') return image;
+    return this.planes.get(`channel ${i}`, `${channel} ${versionOf(image)}`,
+                           held => channelImage(image, channel, held));
+  }
+
   // Returns a canvas of the image's size, or null while there is nothing to show.
   layer(view) {
-    const image = this.images[view.image];
-    if (!image.data) return null;
+    if (!this.images[view.image].data) return null;
     if (view.isError) return this.errorLayer(view.image);
+    const image = this.channelOf(view.image);
     const key = `${this.kind} ${versionOf(image)} ${this.state.tone} ${this.factor}`;
     return this.cache.get(`image ${view.image}`, key, held => {
       if (this.state.tone === 'false') {
@@ -175,7 +183,11 @@ class Painter {
   texts(view, i) {
     const {data} = this.images[view.image];
     if (!data) return [];
-    if (!view.isError) return Array.from(data.subarray(3 * i, 3 * i + 3), shortNumber);
+    if (!view.isError) {
+      const isOne = this.state.channel !== 'rgb';
+      return Array.from(this.channelOf(view.image).data.subarray(3 * i, 3 * i + (isOne ? 1 : 3)),
+                        shortNumber);
+    }
     const plane = this.plane(this.state.error, view.image);
     return plane ? [shortNumber(plane.values[i])] : [];
   }
@@ -188,12 +200,12 @@ class Painter {
   }
 
   pixelColour(view, i) {
-    const {data} = this.images[view.image];
-    if (!data) return 0;
+    if (!this.images[view.image].data) return 0;
     if (view.isError) {
       const plane = this.plane(this.state.error, view.image);
       return plane ? scaledColour(plane.values[i], this.errorScale()) : 0;
     }
+    const {data} = this.channelOf(view.image);
     const rgb = data.subarray(3 * i, 3 * i + 3);
     if (!rgb.every(Number.isFinite)) return nonfiniteColour(data, i);
     if (this.state.tone === 'false') return scaledColour(luminance(...rgb), this.luminanceScale());

@@ -12,14 +12,11 @@ document.addEventListener('wheel', event => {
 const CLICK_RADIUS = 4;
 
 // `viewer.data.pointer`, if set, may take over drag and wheel. drag(event, hit) returns a handler
-// {move(dx, dy)} or null; wheel(event) returns whether it was handled; click(hit) is called after a
-// press without movement.
+// {move(dx, dy, event), end() if needed} or null; wheel(event) returns whether it was handled;
+// click(hit) is called after a press without movement.
 function addPointer(viewer) {
   const {canvas, divider, frame} = viewer, own = viewer.data.pointer;
-  const position = event => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
+  const position = event => viewer.pointerAt(event);
   let last = null, first = null, drag = null;
 
   canvas.addEventListener('wheel', event => {
@@ -39,7 +36,8 @@ function addPointer(viewer) {
     viewer.root.focus({preventScroll: true});
     canvas.setPointerCapture(event.pointerId);
     first = last = [event.clientX, event.clientY];
-    drag = own ? own.drag(event, viewer.stage.hit(...position(event))) : null;
+    const hit = viewer.stage.hit(...position(event));
+    drag = viewer.rectangle.drag(event, hit) || (own ? own.drag(event, hit) : null);
   });
   canvas.addEventListener('pointermove', event => {
     if (first && Math.hypot(event.clientX - first[0], event.clientY - first[1]) > CLICK_RADIUS) {
@@ -47,15 +45,18 @@ function addPointer(viewer) {
     }
     if (last) {
       const by = [event.clientX - last[0], event.clientY - last[1]];
-      if (drag) drag.move(...by); else if (!first || !own) viewer.camera.pan(...by);
+      if (drag) drag.move(...by, event); else if (!first || !own) viewer.camera.pan(...by);
       last = [event.clientX, event.clientY];
     }
     viewer.pointer = position(event);
     viewer.redraw();
   });
-  const end = () => { first = last = drag = null; };
+  const end = () => {
+    if (drag && drag.end) drag.end();
+    first = last = drag = null;
+  };
   canvas.addEventListener('pointerup', event => {
-    if (first && own) own.click(viewer.stage.hit(...position(event)));
+    if (first && own && !(drag && drag.isRectangle)) own.click(viewer.stage.hit(...position(event)));
     end();
   });
   canvas.addEventListener('pointercancel', end);

@@ -120,6 +120,7 @@ class Stage {
       drawMarks(context, camera, view, image.marks);
       drawPath(context, camera, view, image.path || []);
     }
+    if (this.state.rectangle) drawRectangle(context, camera, view, this.state.rectangle);
     if (pixel) drawPointer(context, camera, view, pixel);
     context.restore();
   }

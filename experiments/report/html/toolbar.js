@@ -16,6 +16,14 @@ class Toolbar {
       ['srgb', 'sRGB', 'radiance times exposure, clipped (t)'],
       ['false', 'False colour', 'luminance on a logarithmic scale (t)']
     ], tone => set({tone}));
+    this.channel = makeList('channel', 'channel of the picture, not of its errors (u)',
+                              CHANNEL_ORDER.map(key => [key, CHANNELS[key].name,
+                                                        CHANNELS[key].title]),
+                              channel => {
+                                set({channel});
+                                viewer.root.focus({preventScroll: true});
+                              });
+    this.channel.element.className = 'channel';
     this.log = makeButton('log', commandTitle('log'), () => viewer.toggleLog());
     this.stops = make('output', {title: 'exposure'});
     this.scale = make('output', {title: 'screen pixels a pixel'});
@@ -27,21 +35,30 @@ class Toolbar {
     };
     const exposure = make('div', {class: 'group', role: 'group', 'aria-label': 'Exposure'},
                           button('\u2212', 'darker'), this.stops, button('+', 'brighter'),
-                          button('reset', 'exposure-reset'));
+                          button('reset', 'exposure-reset'), button('auto', 'auto-exposure'));
     const zoom = make('div', {class: 'group', role: 'group', 'aria-label': 'Zoom'},
                       button('\u2212', 'zoom-out'), this.scale, button('+', 'zoom-in'),
                       button('fit', 'fit'), button('1:1', 'actual'));
+    this.histogram = button('histogram', 'histogram');
+    this.rectangle = button('rectangle', 'rectangle');
+    const tools = make('div', {class: 'group extra', role: 'group', 'aria-label': 'Tools'},
+                       this.histogram, this.rectangle, button('link', 'link'));
     const search = button('\u2315', 'palette'), help = button('?', 'help');
     this.error.element.append(this.log);
+    this.tone.element.append(this.channel.element);
     this.element = make('div', {class: 'toolbar', role: 'group', 'aria-label': 'Image viewer'},
                         this.mode.element, this.error.element, this.tone.element, exposure, zoom,
-                        make('div', {class: 'group'}, search, help));
+                        tools, make('div', {class: 'group'}, search, help));
   }
 
-  show(state, painter) {
+  // `isChoosing`: the next drag chooses a rectangle.
+  show(state, painter, isChoosing) {
     this.mode.show(state.mode);
     this.error.show(state.error);
     this.tone.show(state.tone);
+    this.channel.show(state.channel);
+    this.histogram.setAttribute('aria-pressed', state.histogram);
+    this.rectangle.setAttribute('aria-pressed', isChoosing);
     const canBeLog = state.error !== 'none' && !ERRORS[state.error].signed;
     this.log.disabled = !canBeLog;
     this.log.setAttribute('aria-pressed', canBeLog && painter.isLog());

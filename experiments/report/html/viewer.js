@@ -1,9 +1,13 @@
 // Viewer: the state of one block's images, its controls and its drawing.
+
+const VIEWER_NOTICE_MS = 8000;
+
 class Viewer {
   // `data` as in the report; `images`: {name, role, width, height, data, nonfinite, version}. On a
   // live page `data` may also have `room()`: height of the stage in CSS pixels, which is then
   // filled; `pointer` (pointer.js); `idle()`: the status line while the pointer is outside;
-  // `arranged(images)`: called with the images in view.
+  // `arranged(images)`: called with the images in view; `notice(text)`: says it; `link()` returns
+  // the address of what is shown.
   constructor(root, data, images) {
     // `pointer`: position in the stage in CSS pixels, or null; `pixel` and `overView`: pixel and
     // view at that position.
@@ -15,8 +19,11 @@ class Viewer {
       current: method < 0 ? 0 : method, compare,
       // Compare with the reference: a noisy image alone says little.
       mode: reference >= 0 && method >= 0 ? 'wipe' : 'single', error: 'none', stops: 0,
-      tone: 'srgb', log: {}, wipe: 0.5, held: false, opacity: 0.7
+      tone: 'srgb', channel: 'rgb', log: {}, wipe: 0.5, held: false, opacity: 0.7,
+      histogram: false, rectangle: null
     };
+    // Called after each drawing.
+    this.onDrawn = () => {};
     this.painter = new Painter(this.state, images, data.exposure);
     this.painter.onLost = () => this.redraw();
     this.camera = new Camera(images[0].width, images[0].height);
@@ -38,9 +45,12 @@ class Viewer {
     this.list = new ImageList(this.images, this.data.whole, this.camera, {
       choose: i => this.set({current: i}), compare: i => this.set({compare: i})
     });
+    this.rectangle = new RectangleChoice(this);
+    this.tools = new ViewerTools(this);
     this.toolbar = new Toolbar(this);
-    this.root.replaceChildren(this.toolbar.element, this.frame, this.status, this.legend,
-                              this.list.element, this.now);
+    this.said = make('p', {class: 'notice', role: 'status', hidden: ''});
+    this.root.replaceChildren(this.toolbar.element, this.said, this.frame, this.status, this.legend,
+                              this.tools.element, this.list.element, this.now);
     this.root.setAttribute('tabindex', 0);
     addPointer(this);
   }
@@ -48,10 +58,10 @@ class Viewer {
   set(change) {
     Object.assign(this.state, change);
     const {state} = this;
-    for (const key of ['current', 'compare', 'mode', 'error', 'stops', 'tone']) {
+    for (const key of ['current', 'compare', 'mode', 'error', 'stops', 'tone', 'channel']) {
       this.root.dataset[key] = state[key];
     }
-    this.toolbar.show(state, this.painter);
+    this.toolbar.show(state, this.painter, this.rectangle.isOn);
     showLegend(this.legend, state, this.painter, this.images);
     const text = this.describe();
     this.canvas.setAttribute('aria-label', text);
@@ -63,15 +73,28 @@ class Viewer {
   setImage(i, change) {
     const image = this.images[i];
     Object.assign(image, change);
-    if ('data' in change) ++image.version;
+    if ('data' in change) {
+      ++image.version;
+      this.tools.table.note(i);
+    }
     this.redraw();
   }
 
-  // Sets the size at which all images are shown.
+  // Sets the size at which all images are shown. A rectangle is of pixels that are no more.
   setSize(width, height) {
     if (width === this.camera.width && height === this.camera.height) return;
     this.camera.resize(width, height);
+    if (this.state.rectangle) this.rectangle.clear();
     this.redraw();
+  }
+
+  // Says something to the reader: on a live page as its other messages, else above the picture.
+  notice(text) {
+    if (this.data.notice) return this.data.notice(text);
+    setText(this.said, text);
+    this.said.hidden = false;
+    clearTimeout(this.saidTimer);
+    this.saidTimer = setTimeout(() => { this.said.hidden = true; }, VIEWER_NOTICE_MS);
   }
 
   setExposure(exposure) {
@@ -114,9 +137,12 @@ class Viewer {
     showLegend(this.legend, this.state, this.painter, this.images);
     this.toolbar.showZoom(this.camera);
     // A touch scrolls the page while the whole image fits into the view.
-    this.canvas.style.touchAction = this.camera.fitted ? 'pan-y' : 'none';
+    const scrolls = this.camera.fitted && !this.rectangle.isOn;
+    this.canvas.style.touchAction = scrolls ? 'pan-y' : 'none';
+    this.tools.update();
     this.root.dataset.scale = this.camera.scale;
     this.root.dataset.drawn = Number(this.root.dataset.drawn || 0) + 1;
+    this.onDrawn();
   }
 
   room(width) {
@@ -187,6 +213,12 @@ class Viewer {
       }
     }
     setText(this.status, text);
+  }
+
+  // Returns the position of an event in the stage, in CSS pixels.
+  pointerAt(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
   }
 
   step(by) {

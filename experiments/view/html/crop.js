@@ -1,19 +1,17 @@
-// Options of `restlab figure` for the visible part of the picture.
+// Options of `restlab figure` for the chosen rectangle, or for the visible part of the picture.
 
 function figureOptions(viewer) {
   viewer.draw();
-  const {camera, painter} = viewer;
-  const [x0, y0, x1, y1] = shownPixels(camera, viewer.stage.views[0], camera.width, camera.height);
-  return `--crop ${x0},${y0},${x1 - x0},${y1 - y0} --exposure ${
-      Number(painter.factor.toPrecision(6))}`;
+  const {camera, stage, state} = viewer;
+  return cropOptions(viewer, state.rectangle ||
+      shownPixels(camera, stage.views[0], camera.width, camera.height));
 }
 
 async function giveCrop(page) {
   const text = figureOptions(page.viewer);
-  try {
-    await navigator.clipboard.writeText(text);
+  if (await copyText(text)) {
     page.messages.notice(`copied for restlab figure: ${text}`);
-  } catch {
+  } else {
     downloadText('crop.txt', `${text}\n`);
     page.messages.notice(`for restlab figure: ${text}`);
   }

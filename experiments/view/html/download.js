@@ -16,17 +16,13 @@ function downloadText(name, text) {
 // Makes a button that copies `text()`. Browsers may refuse the clipboard to a page without TLS.
 function copyButton(text, help, say) {
   return makeButton('copy', help, async () => {
-    try {
-      await navigator.clipboard.writeText(text());
-      say('copied');
-    } catch {
-      say('the browser gives no access to the clipboard: select the text and copy it');
-    }
+    say(await copyText(text())
+        ? 'copied' : 'the browser gives no access to the clipboard: select the text and copy it');
   });
 }
 
-// Saves the visible stage with the names of its views, as a PNG.
-function saveScreenshot(viewer, name) {
+// Saves the visible stage with the names of its views, as a PNG with `words`.
+function saveScreenshot(viewer, name, words) {
   viewer.draw();
   const {canvas} = viewer, ratio = canvas.width / viewer.stage.width;
   const picture = make('canvas', {width: canvas.width, height: canvas.height});
@@ -48,5 +44,5 @@ function saveScreenshot(viewer, name) {
     context.fillStyle = '#fff';
     context.fillText(text, x + 7, view.y + 11);
   }
-  picture.toBlob(blob => downloadBlob(name, blob), 'image/png');
+  picture.toBlob(async blob => downloadBlob(name, await pngWithWords(blob, words)), 'image/png');
 }

@@ -1,8 +1,6 @@
 // Keeps the whole state of the page in its address, after the #: opening the address again restores
 // it.
 
-const VIEW_FIELDS = ['mode', 'current', 'compare', 'error', 'stops', 'tone', 'log', 'wipe',
-                     'opacity'];
 const FRAGMENT_INTERVAL_MS = 700;
 
 function stateForAddress(state, viewer, settings) {
@@ -14,10 +12,6 @@ function stateForAddress(state, viewer, settings) {
     kept.parameters = Object.fromEntries(changed.map(({name, value}) => [name, value]));
     return kept;
   });
-  const view = Object.fromEntries(VIEW_FIELDS.map(key => [key, viewer.state[key]]));
-  view.exposure = viewer.painter.exposure;
-  const {fitted, x, y, scale} = viewer.camera;
-  if (!fitted) view.zoom = [x, y, scale].map(value => Number(value.toPrecision(6)));
   const lights = state.lights.filter(({factor}) => factor !== 1);
   const transport = state.transport.filter(info => info.is_set);
   const materials = state.materials.map(({name, bases, parameters}) => {
@@ -27,7 +21,7 @@ function stateForAddress(state, viewer, settings) {
   return {panes, materials, camera: state.camera, width: state.width, height: state.height,
           lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
           transport: Object.fromEntries(transport.map(({name, value}) => [name, value])),
-          table: state.table, paused: state.paused, view};
+          table: state.table, paused: state.paused, view: viewState(viewer)};
 }
 
 const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
@@ -35,7 +29,7 @@ const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
 const isObject = value => value !== null && typeof value === 'object';
 const isKept = kept => isObject(kept) && Array.isArray(kept.panes) && kept.panes.every(isObject);
 
-// Returns null if there is no fragment or it was not made by this page.
+// Returns what a page keeps; null if there is no fragment or no page has made it.
 function readFragment(hash) {
   if (hash.length < 2) return null;
   try {
@@ -122,21 +116,4 @@ function commandsOfMaterial(material, wanted) {
     }
   }
   return commands;
-}
-
-function applyView(view, viewer) {
-  const known = VIEW_FIELDS.filter(key => view && key in view &&
-                                   typeof view[key] === typeof viewer.state[key]);
-  const change = Object.fromEntries(known.map(key => [key, view[key]]));
-  for (const key of ['current', 'compare']) if (!viewer.images[change[key]]) delete change[key];
-  if (!ERROR_ORDER.includes(change.error)) delete change.error;
-  viewer.set(change);
-  // The state's own exposure is the brightness at the time this page was opened: the kept exposure
-  // wins.
-  if (view && view.exposure > 0 && Number.isFinite(view.exposure)) viewer.setExposure(view.exposure);
-  if (view && Array.isArray(view.zoom) && view.zoom.every(Number.isFinite)) {
-    const [x, y, scale] = view.zoom;
-    Object.assign(viewer.camera, {fitted: false, x, y, scale});
-    viewer.redraw();
-  }
 }

@@ -48,7 +48,7 @@ function makeLiveCommands(page) {
      run: () => page.camera.setMode(!isOn())},
     {id: 'orbit', keys: ['o'], group: camera, title: 'dragging orbits, or not',
      run: () => page.camera.setOrbit(!page.camera.isOrbit)},
-    {id: 'adaptive', keys: ['L'], group: camera,
+    {id: 'adaptive', keys: ['C'], group: camera,
      title: 'smaller frames while the camera moves, or whole ones',
      run: () => page.session.send({do: 'adaptive', on: !page.state.adaptive})},
     {id: 'bookmark', keys: ['k'], group: camera, title: 'keep this view as a bookmark',
@@ -96,7 +96,7 @@ function makeLiveCommands(page) {
     {id: 'save', keys: ['Ctrl+s'], group: session, title: 'save the session as TOML',
      run: send({do: 'save'})},
     {id: 'screenshot', keys: ['x'], group: session, title: 'save what is shown as a PNG',
-     run: viewer => saveScreenshot(viewer, `${page.hello.scene.name}.png`)},
+     run: viewer => saveScreenshot(viewer, `${page.hello.scene.name}.png`, pictureWords(page))},
     {id: 'picture', keys: ['X'], group: session,
      title: 'save the chosen image as it was rendered, an EXR', run: () => page.savePicture()},
     {id: 'crop', keys: ['m'], group: session,
@@ -117,7 +117,8 @@ function makeLiveCommands(page) {
      title: 'the same as Space; Escape, then Tab leaves the picture',
      run: viewer => viewer.set({held: true}), release: viewer => viewer.set({held: false})},
     {id: 'leave', keys: ['Escape'], group: 'Images', title: 'leave camera mode, or the picture',
-     when: viewer => isOn() || page.camera.isOrbit || document.activeElement === viewer.root,
+     when: viewer => isOn() || page.camera.isOrbit ||
+         (document.activeElement === viewer.root && !viewer.state.rectangle),
      run: viewer => page.leave(viewer)}
   ];
   for (const one of commands) {
@@ -132,6 +133,7 @@ function makeLiveCommands(page) {
 const LIVE_POINTER_HELP = [
   ['wheel', 'zoom about the pointer; in camera mode the speed'],
   ['drag', 'move the picture; in camera mode look around'],
+  ['Shift + drag', 'choose a rectangle of pixels'],
   ['Alt + drag', 'orbit about the point under the pointer'],
   ['click', 'probe the pixel in all panes']
 ];

@@ -151,7 +151,8 @@ class LivePage {
     const data = {x: 0, y: 0, whole: true, exposure: this.hello.exposure || 1,
                   room: () => this.viewer.frame.clientHeight, pointer: this.camera,
                   arranged: images => this.arranged(images),
-                  idle: () => this.idleText()};
+                  idle: () => this.idleText(), link: () => this.link(),
+                  notice: text => this.messages.notice(text)};
     this.viewer = this.root.viewer =
         new Viewer(this.root, data, imagesOf(state, this.hello));
     this.viewer.frame.append(this.badge, this.warnings.note);
@@ -191,24 +192,40 @@ class LivePage {
     const {settings} = this.hello;
     const [navigation] = performance.getEntriesByType('navigation');
     const isReload = navigation && navigation.type === 'reload';
-    if (this.kept) {
-      applyView(this.kept.view, this.viewer);
-      if (this.methods.opacity) this.methods.opacity.value = this.viewer.state.opacity;
-    }
+    if (this.kept) this.applyView(this.kept.view);
+    else if (location.hash.length > 1) this.refuseAddress();
     if (this.kept && !isReload) {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
     // Apply an address that is pasted later, too.
     window.addEventListener('hashchange', () => {
       const kept = readFragment(location.hash);
-      if (!kept) return;
-      applyView(kept.view, this.viewer);
+      if (!kept) {
+        this.refuseAddress();
+        return;
+      }
+      this.applyView(kept.view);
       for (const command of commandsTowards(kept, this.state, settings)) this.session.send(command);
     });
-    setInterval(() => {
-      const text = fragmentOf(stateForAddress(this.state, this.viewer, settings));
-      if (text !== location.hash) history.replaceState(null, '', text);
-    }, FRAGMENT_INTERVAL_MS);
+    setInterval(() => this.link(), FRAGMENT_INTERVAL_MS);
+  }
+
+  // Brings the address up to date and returns it.
+  link() {
+    const text = fragmentOf(stateForAddress(this.state, this.viewer, this.hello.settings));
+    if (text !== location.hash) history.replaceState(null, '', text);
+    return location.href;
+  }
+
+  applyView(view) {
+    const wrong = isObject(view) ? applyViewState(view, this.viewer) : ['view'];
+    if (this.methods.opacity) this.methods.opacity.value = this.viewer.state.opacity;
+    if (!wrong.length) return;
+    this.messages.notice(`the address has no possible value of ${wrong.join(', ')}: left as it is`);
+  }
+
+  refuseAddress() {
+    this.messages.notice('the address is cut off, or no page has made it: nothing was changed');
   }
 
   showImage(head) {
@@ -227,7 +244,7 @@ class LivePage {
     if (!images[i]) return;
     const data = readPixels(head, images[i].data);
     this.viewer.setImage(i, {data, nonfinite: nonfinitePixels(data), width, height,
-                             epoch: head.epoch, progress: null});
+                             epoch: head.epoch, frame: head.frame, progress: null});
     this.root.dataset.received = Number(this.root.dataset.received || 0) + 1;
   }
 

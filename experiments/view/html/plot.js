@@ -1,14 +1,6 @@
 // Small plot of curves on logarithmic axes.
 
-const SVG = 'http://www.w3.org/2000/svg';
 const PLOT = {width: 360, height: 190, left: 52, right: 10, top: 8, bottom: 34};
-
-function svg(tag, attributes, ...children) {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes || {})) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-}
 
 // Returns the ends of an axis around values: 1, 2 or 5 times a power of ten.
 function logEnds(values) {

@@ -75,15 +75,27 @@ function pathTable(message) {
               make('tbody', {}, ...rows));
 }
 
+// Follows frames at most so often; an answer that does not come is no longer waited for after the
+// second time.
+const PROBE_INTERVAL_MS = 250, PROBE_TIMEOUT_MS = 2000;
+
 class ProbePanel {
   constructor(page, count) {
-    Object.assign(this, {page, count, pixel: null, answers: []});
+    Object.assign(this, {page, count, pixel: null, answers: [], asked: [], texts: []});
+    this.due = new AtMost(PROBE_INTERVAL_MS, () => this.follow(page.last));
     const number = name => make('input', {type: 'number', min: 0, step: 1, 'aria-label': name});
     this.x = number('x of the pixel');
     this.y = number('y of the pixel');
     const form = make('form', {class: 'line'}, 'x', this.x, 'y', this.y,
                       make('button', {type: 'submit'}, 'probe'),
                       makeButton('clear', 'take the marks away', () => this.clear()));
+    this.hold = make('input', {type: 'checkbox', id: 'probe-hold'});
+    this.hold.addEventListener('change', () => {
+      this.showAge();
+      this.follow(page.last);
+    });
+    form.append(make('label', {for: 'probe-hold', title: 'keep what the probed frame had, while ' +
+                                                         'frames go on'}, this.hold, ' hold'));
     form.addEventListener('submit', event => {
       event.preventDefault();
       this.ask({x: Number(this.x.value), y: Number(this.y.value)});
@@ -97,7 +109,7 @@ class ProbePanel {
                         this.commands);
   }
 
-  // Probes all panes at once, to compare them.
+  // Probes all panes at once, to compare them. A new pixel is of the newest frame, held or not.
   ask({x, y}) {
     this.pixel = {x, y};
     this.x.value = x;
@@ -105,8 +117,14 @@ class ProbePanel {
     this.answers = [];
     this.unmark();
     this.page.state.panes.forEach(({source}, pane) => {
-      if (!source) this.page.session.send({do: 'probe', pane, x, y});
+      if (!source) this.send(pane);
     });
+  }
+
+  send(pane) {
+    const {x, y} = this.pixel;
+    this.asked[pane] = performance.now();
+    this.page.session.send({do: 'probe', pane, x, y});
   }
 
   // Shows a hint while nothing is probed.
@@ -116,13 +134,16 @@ class ProbePanel {
         : 'Click a pixel of the picture, or point at one and press g.');
   }
 
-  // Probes again after a change, once, when the panes have rendered it.
-  follow({epoch, age, panes}) {
-    if (!this.pixel || epoch !== this.page.state.epoch || this.followed === epoch || !age) return;
-    const {x, y} = this.pixel;
-    const old = this.answers.filter(one => one && one.epoch !== epoch && panes[one.pane].frame > 0);
-    if (old.length) this.followed = epoch;
-    for (const {pane} of old) this.page.session.send({do: 'probe', pane, x, y});
+  // Probes again while frames go on. `numbers`: the program's newest message.
+  follow(numbers) {
+    if (!this.pixel || this.hold.checked || !numbers) return;
+    const {epoch, age, panes} = numbers;
+    if (epoch !== this.page.state.epoch || !age) return;
+    const isWaiting = pane => this.asked[pane] > performance.now() - PROBE_TIMEOUT_MS;
+    const old = this.answers.filter(one => one && showsMethod(panes[one.pane]) &&
+        panes[one.pane].frame > 0 && !isWaiting(one.pane) &&
+        (one.epoch !== epoch || one.frame !== panes[one.pane].frame));
+    if (old.length && this.due.isDue()) for (const {pane} of old) this.send(pane);
   }
 
   clear() {
@@ -143,6 +164,7 @@ class ProbePanel {
     // Discard an answer for a pixel that is no longer probed.
     if (!this.pixel || message.x !== this.pixel.x || message.y !== this.pixel.y) return;
     this.answers[message.pane] = message;
+    this.asked[message.pane] = 0;
     this.page.viewer.setImage(message.pane, {
       marks: [...donorMarks(message), {x: message.x, y: message.y, kind: 'probe'}],
       path: message.path
@@ -150,12 +172,12 @@ class ProbePanel {
     this.show();
   }
 
-  // Marks values that were probed before the last change.
+  // Says of which frames the values are, and marks those that were probed before the last change.
   showAge() {
     if (!this.answers.some(Boolean)) return this.invite();
-    const {epoch} = this.page.state;
-    setText(this.hint, this.texts.map(([one, text]) => one.epoch === epoch
-        ? text : `${text}, before the change`).join('; '));
+    const {epoch} = this.page.state, frame = this.hold.checked ? 'held at frame' : 'frame';
+    setText(this.hint, this.texts.map(([one, text]) => `${PANE_NAMES[one.pane]}: ${frame} ${
+        one.frame}, ${text}${one.epoch === epoch ? '' : ', before the change'}`).join('; '));
     for (const [{pane, epoch: probed}] of this.texts)
       if (probed !== epoch) this.page.viewer.setImage(pane, {path: null});
     this.results.classList.toggle('old', this.texts.some(([one]) => one.epoch !== epoch));
@@ -171,8 +193,7 @@ class ProbePanel {
       const {length} = donorsOf(message);
       return length ? `, ${length} donor${length > 1 ? 's' : ''}` : '';
     };
-    this.texts = there.map(one => [one, `${PANE_NAMES[one.pane]}: frame ${one.frame}, seed ${
-        one.seed}${donors(one)}`]);
+    this.texts = there.map(one => [one, `seed ${one.seed}${donors(one)}`]);
     this.showAge();
     const heads = there.map(one => make('th', {scope: 'col', class: 'num'}, PANE_NAMES[one.pane]));
     const rows = Array.from(names, ([name, info]) => make(
