@@ -146,6 +146,25 @@ TEST_F(PageToolsTest, ARectangleIsMeasuredOverFrames) {
             "--crop 4,3,8,6");
 }
 
+// Shift makes a moved camera faster, and chooses a rectangle otherwise; neither probes.
+TEST_F(PageToolsTest, ShiftIsTheCamerasWhileItIsMoved) {
+  open();
+  press("s");
+  press("c");
+  const auto [x, y] = positionOf(20, 10);
+  browser_->drag(x, y, x + 100.0, y + 60.0, true);
+  EXPECT_EQ(page("await until(() => page.state.can_undo); return viewer.state.rectangle;"), nullptr)
+      << "it looked around";
+  press("c");
+  browser_->drag(x, y, x + 100.0, y + 60.0, true);
+  EXPECT_EQ(page("const [x0, y0, x1, y1] = viewer.state.rectangle; return [x0, y0, x1 > x0 + 2, "
+                 "y1 > y0 + 2, page.probe.pixel];"),
+            (Json{20, 10, true, true, nullptr}));
+  page("viewer.root.focus();");
+  press("Escape");
+  EXPECT_EQ(page("return viewer.state.rectangle;"), nullptr);
+}
+
 // Returns the words of a PNG; a failure if a chunk is not as it must be.
 std::map<std::string, std::string> wordsOf(const std::string& png) {
   std::map<std::string, std::string> words;

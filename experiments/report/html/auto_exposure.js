@@ -34,19 +34,20 @@ function brightnesses({data, width, height}) {
   return found;
 }
 
-// Returns the value at x, y, or the third largest one of the 3x3 pixels around if that is smaller.
+// Returns the value at x, y, or the fourth largest one of the 3x3 around if that is smaller.
 function withoutSpike(values, width, height, x, y) {
-  let first = -1, second = -1, third = -1;
+  let first = -1, second = -1, third = -1, fourth = -1;
   const lastX = Math.min(width - 1, x + 1), lastY = Math.min(height - 1, y + 1);
   for (let j = Math.max(0, y - 1); j <= lastY; ++j) {
     for (let i = Math.max(0, x - 1); i <= lastX; ++i) {
       const value = values[j * width + i];
-      if (value > first) [first, second, third] = [value, first, second];
-      else if (value > second) [second, third] = [value, second];
-      else if (value > third) third = value;
+      if (value > first) [first, second, third, fourth] = [value, first, second, third];
+      else if (value > second) [second, third, fourth] = [value, second, third];
+      else if (value > third) [third, fourth] = [value, third];
+      else if (value > fourth) fourth = value;
     }
   }
-  return Math.min(values[y * width + x], third < 0 ? 0 : third);
+  return Math.min(values[y * width + x], fourth < 0 ? 0 : fourth);
 }
 
 // Returns the factor on radiance; 1 for an image without light.

@@ -37,7 +37,10 @@ function addPointer(viewer) {
     canvas.setPointerCapture(event.pointerId);
     first = last = [event.clientX, event.clientY];
     const hit = viewer.stage.hit(...position(event));
-    drag = viewer.rectangle.drag(event, hit) || (own ? own.drag(event, hit) : null);
+    // A camera that is moved keeps Shift, by which it is faster.
+    const choice = viewer.rectangle, isFirst = choice.isOn;
+    drag = (isFirst && choice.drag(event, hit)) || (own && own.drag(event, hit)) ||
+        choice.drag(event, hit);
   });
   canvas.addEventListener('pointermove', event => {
     if (first && Math.hypot(event.clientX - first[0], event.clientY - first[1]) > CLICK_RADIUS) {

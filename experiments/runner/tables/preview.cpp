@@ -47,9 +47,10 @@ float brightness(const glm::vec3& pixel) {
   return luminanceOf(pixel) > 0.0 ? std::max({pixel.x, pixel.y, pixel.z}) : 0.0f;
 }
 
-// Returns the value at x, y, or the third largest one of the 3x3 around if that is smaller.
+// Returns the value at x, y, or the fourth largest one of the 3x3 around if that is smaller: the
+// corner of a lamp has four.
 float withoutSpike(const Image& image, const std::vector<float>& values, uint32_t x, uint32_t y) {
-  float largest[3] = {0.0f, 0.0f, 0.0f};
+  float largest[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   for (uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(image.height - 1, y + 1); ++j) {
     for (uint32_t i = x > 0 ? x - 1 : 0; i <= std::min(image.width - 1, x + 1); ++i) {
       float value = values[size_t(j) * image.width + i];
@@ -57,7 +58,7 @@ float withoutSpike(const Image& image, const std::vector<float>& values, uint32_
         if (value > other) std::swap(value, other);
     }
   }
-  return std::min(values[size_t(y) * image.width + x], largest[2]);
+  return std::min(values[size_t(y) * image.width + x], largest[3]);
 }
 
 template <typename T>

@@ -12,7 +12,7 @@ namespace restlab {
 // few samples most pixels are black and the others far too bright. Blocks without light do not
 // count. Then at most one pixel of the other blocks in a hundred may be clipped, but the picture is
 // darkened by at most two stops for that. These are pixels: a block at a lamp's edge would be as
-// bright as the lamp. One that is alone with its brightness is noise, and counts as the third
+// bright as the lamp. One that is alone with its brightness is noise, and counts as the fourth
 // brightest of the 3x3 around it. Pixels that are not finite do not count.
 //
 // autoExposure() of the image viewer is the same rule.
