@@ -154,7 +154,7 @@ TEST_F(PainterTest, ImageWithoutDataIsNothing) {
     state({error: 'absolute', compare: 0});
     renew(1, images[1].data);
     images[2].data = null;
-    for (const error of ['signed', 'absolute', 'squared', 'relative']) {
+    for (const error of ['signed', 'absolute', 'squared', 'relative', 'smape']) {
       state({error});
       found.push(painter.plane(error, 2), painter.layer({image: 2, isError: true}),
                  painter.texts({image: 2, isError: true}, 0).length,
@@ -332,7 +332,7 @@ TEST_F(PainterTest, WebGlPaintsTheSame) {
                                           i)),
                  fmt::format("false colour, image {}, {} EV", i, stops));
       if (i == 0) continue;
-      for (const char* error : {"signed", "absolute", "squared", "relative"}) {
+      for (const char* error : {"signed", "absolute", "squared", "relative", "smape"}) {
         for (const bool log : {false, true}) {
           expectNear(page(start + fmt::format("state({{error: '{0}', log: {{'{0}': {1}}}}}); "
                                               "const found = compare({2}, true); "

@@ -15,7 +15,8 @@ set(RL_REPORT_TESTS
   report/xml.cpp
   report/colour_distance.cpp
   report/tools_test.cpp
+  report/error_maps_test.cpp
 )
 set(RL_REPORT_LIBRARIES rl_report)
 # Their tests share a browser.
-set(RL_REPORT_SUITES PainterTest ReportPage RunFolder ViewerTest ViewerToolsTest)
+set(RL_REPORT_SUITES ErrorMapsTest PainterTest ReportPage RunFolder ViewerTest ViewerToolsTest)

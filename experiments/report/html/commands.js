@@ -18,7 +18,7 @@ function imageCommands() {
   for (let i = 0; i < 9; ++i) {
     const hasImage = viewer => i < viewer.images.length;
     const row = i ? null : ['Shift + 1 \u2013 9',
-                            'compare with that image (errors, the left side of the divider)'];
+                            'compare with that image (errors; the left side, unless d chose one)'];
     commands.push({id: `compare-${i + 1}`, keys: [`Shift+${i + 1}`], group: 'Images', row,
                    title: `compare with image ${i + 1}`, when: hasImage,
                    run: viewer => viewer.set({compare: i})});
@@ -27,8 +27,6 @@ function imageCommands() {
 }
 
 const PAN_STEP = 60;  // CSS pixels
-
-const isErrorView = viewer => viewer.state.error !== 'none';
 
 const VIEWER_COMMANDS = [
   ...rectangleCommands(),
@@ -40,6 +38,8 @@ const VIEWER_COMMANDS = [
   {id: 'hold-compare', keys: ['Space'], group: 'Images', isFocused: true,
    title: 'while held, what is compared with; the viewer must have the focus',
    run: viewer => viewer.set({held: true}), release: viewer => viewer.set({held: false})},
+  {id: 'next-left', keys: ['d'], group: 'Images', title: 'next image left of the divider',
+   when: viewer => viewer.images.length > 2, run: viewer => viewer.stepLeft()},
 
   {id: 'single', keys: ['s'], group: 'View', title: 'single image',
    run: viewer => viewer.set({mode: 'single'})},
@@ -47,6 +47,12 @@ const VIEWER_COMMANDS = [
    run: viewer => viewer.set({mode: 'wipe'})},
   {id: 'side', keys: ['b'], group: 'View', title: 'side by side: all images at the same place',
    run: viewer => viewer.set({mode: 'side'})},
+  {id: 'inset', keys: ['i'], group: 'View', when: viewer => viewer.insets.list.length < MOST_INSETS,
+   title: 'inset: what is shown, or the surroundings of the pointer, with its own errors',
+   run: viewer => viewer.insets.add()},
+  {id: 'remove-inset', keys: ['I'], group: 'View', title: 'take the newest inset away',
+   when: viewer => viewer.insets.list.length > 0,
+   run: viewer => viewer.insets.remove(viewer.insets.list.length - 1)},
   {id: 'fit', keys: ['f'], group: 'View', title: 'fit into the window',
    run: viewer => viewer.fit()},
   {id: 'actual', keys: ['0'], group: 'View', title: 'one screen pixel a pixel',
@@ -62,12 +68,13 @@ const VIEWER_COMMANDS = [
    run: viewer => viewer.zoom(1 / 1.5)},
 
   {id: 'next-error', keys: ['n'], group: 'Errors and colours',
-   title: 'next error view: none, signed, absolute, squared, relative',
+   title: `next error view: none, ${
+       ERROR_ORDER.slice(1).map(kind => ERRORS[kind].title.replace(/ error$/, '')).join(', ')}`,
    run: viewer => viewer.stepError(1)},
   {id: 'previous-error', keys: ['N'], group: 'Errors and colours', title: 'previous error view',
    run: viewer => viewer.stepError(-1)},
   {id: 'log', keys: ['l'], group: 'Errors and colours', title: 'linear or logarithmic error scale',
-   when: viewer => isErrorView(viewer) && !ERRORS[viewer.state.error].signed,
+   when: viewer => canBeLog(viewer.state.error),
    run: viewer => viewer.toggleLog()},
   {id: 'brighter', keys: ['e'], group: 'Errors and colours',
    title: 'exposure up half a stop; of errors: their range', run: viewer => viewer.expose(0.5)},

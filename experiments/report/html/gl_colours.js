@@ -2,7 +2,7 @@
 // sRGB differs by at most one. A colour of a map is at most the next one, if 32-bit arithmetic
 // rounds to the other side.
 
-const GL_KINDS = ['srgb', 'luminance', 'signed', 'absolute', 'squared', 'relative'];
+const GL_KINDS = ['srgb', 'luminance', 'signed', 'absolute', 'squared', 'relative', 'smape'];
 
 const GL_VERTEX = `#version 300 es
 void main() {
@@ -62,6 +62,7 @@ void main() {
   if (kind == 3) pixel = mapped(dot(size, third));
   if (kind == 4) pixel = mapped(dot(d / 3.0, d));
   if (kind == 5) pixel = mapped(dot(size / (abs(r) + 0.01), third));
+  if (kind == 6) pixel = mapped(dot(size / (0.5 * abs(a) + 0.5 * abs(r) + 0.01), third));
 }`;
 
 // Limit of images held on the GPU.

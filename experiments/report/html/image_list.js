@@ -9,6 +9,7 @@ class ImageList {
     Object.assign(this, {images, whole, camera, actions});
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
                       make('th', {scope: 'col'}, 'image'),
+                      make('th', {scope: 'col'}, 'left'),
                       make('th', {scope: 'col'}, 'compare with'),
                       this.meanTitle = make('th', {scope: 'col', class: 'num'}),
                       make('th', {scope: 'col', class: 'num'}, 'R'),
@@ -32,6 +33,10 @@ class ImageList {
     const name = make('button', {type: 'button', class: 'name', title: 'show this image'},
                       image.name);
     name.addEventListener('click', () => actions.choose(i));
+    const left = make('button', {type: 'button', class: 'left',
+                                 'aria-label': `${image.name} left of the divider`,
+                                 title: 'show left of a divider (d: the next one)'});
+    left.addEventListener('click', () => actions.left(i));
     const compare = make('button', {type: 'button', class: 'compare',
                                     'aria-label': `compare with ${image.name}`,
                                     title: `errors against this image (Shift+${i + 1})`});
@@ -39,9 +44,10 @@ class ImageList {
     const note = make('span', {class: 'bad'});
     const values = PARTS.map(({part}) => make('td', {class: 'num', 'data-part': part}));
     const element = make('tr', {}, make('td', {}, i < 9 ? make('kbd', {}, String(i + 1)) : ''),
-                         make('th', {scope: 'row'}, name, note), make('td', {}, compare),
+                         make('th', {scope: 'row'}, name, note), make('td', {}, left),
+                         make('td', {}, compare),
                          ...values);
-    return {element, name, compare, note, values};
+    return {element, name, left, compare, note, values};
   }
 
   // `pixel`: {x, y} or null.
@@ -65,6 +71,8 @@ class ImageList {
       const image = this.images[i];
       row.element.classList.toggle('current', i === state.current);
       row.name.setAttribute('aria-pressed', i === state.current);
+      row.left.setAttribute('aria-pressed', state.mode === 'wipe' &&
+                                                i === leftImage(state, this.images));
       row.compare.setAttribute('aria-pressed', i === state.compare);
       setText(row.name, image.name);
       setText(row.note, image.nonfinite.length ? ` ${image.nonfinite.length} non-finite` : '');

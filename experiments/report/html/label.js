@@ -17,7 +17,9 @@ function labelParts(viewer, view) {
   // the camera moves, or is being rendered.
   const isOld = image.data && image.epoch < image.since;
   const isSmall = image.data && image.width !== viewer.camera.width;
-  const error = view.isError ? ` \u2013 ${ERRORS[state.error].title}` : '';
+  const note = view.isError && isRestError(state.error)
+      ? viewer.painter.rest.note(state.error, view.image, state.compare) : '';
+  const error = view.isError ? ` \u2013 ${ERRORS[state.error].title}${note && ` (${note})`}` : '';
   const name = `${view.image < 9 ? `${view.image + 1}  ` : ''}${image.name}${error}${
       isOld ? ' \u2013 before the change' : ''}${
       isSmall ? ` \u2013 ${image.width}\u00d7${image.height}` : ''}${

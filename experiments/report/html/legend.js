@@ -36,6 +36,13 @@ function isScaleThere(state, images) {
   return images.some((image, i) => i !== state.compare && areComparable(image, reference));
 }
 
+// Returns what an error that is computed at rest was made with, or that it is to be made.
+function restText({error, compare}, painter, images) {
+  if (!isRestError(error)) return '';
+  const maps = images.map((_, i) => painter.rest.map(error, i, compare)).filter(map => map);
+  return maps.length ? maps[0].text : 'computed once the picture has been the same for half a second';
+}
+
 // Returns the upper end of the scale of the overlay on image i.
 function overlayEnd(painter, image, i) {
   const scale = image.overlay && painter.overlayScale ? painter.overlayScale(i) : null;
@@ -60,9 +67,11 @@ function showLegend(element, state, painter, images) {
   const isError = state.error !== 'none' && isScaleThere(state, images);
   const scale = isError ? painter.errorScale() :
       state.error === 'none' && state.tone === 'false' ? painter.luminanceScale() : null;
+  const mapText = isError ? restText(state, painter, images) : '';
   const key = [
-    state.error, state.compare, state.tone, state.channel, painter.factor, scale && scale.lo,
-    scale && scale.hi, scale && scale.log, images.some(image => image.nonfinite.length),
+    state.error, state.compare, mapText, state.tone, state.channel, painter.factor,
+    scale && scale.lo, scale && scale.hi, scale && scale.log,
+    images.some(image => image.nonfinite.length),
     ...images.map(image => `${image.name} ${image.overlay ? image.overlay.name : ''}`),
     ...images.map((image, i) => overlayEnd(painter, image, i)),
     ...images.map((image, i) => image.overlay && painter.overlayText ? painter.overlayText(i) : '')
@@ -75,9 +84,10 @@ function showLegend(element, state, painter, images) {
   if (isError) {
     const info = ERRORS[state.error];
     parts.push(make('p', {class: 'legend-title'}, make('b', {}, info.title),
-                    `: ${info.formula}, d = image \u2212 r, r = ${names[state.compare]}` +
+                    `: ${info.formula}${info.steps ? '' : ', d = image \u2212 r'}, r = ${
+                        names[state.compare]}` +
                         (info.signed ? '; blue: darker than r, orange: brighter' : '') +
-                        (scale.log ? '; logarithmic' : '')));
+                        (mapText ? `; ${mapText}` : '') + (scale.log ? '; logarithmic' : '')));
     parts.push(legendBar(scale));
   } else if (state.error !== 'none') {
     parts.push(make('p', {class: 'legend-title'}, 'No error yet: an image is on its way.'));

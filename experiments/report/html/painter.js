@@ -7,6 +7,7 @@ class Painter {
     this.planes = new SlotCache();
     this.range = new SteadyRange();
     this.overlays = new Map();
+    this.rest = new RestMaps(images);
     // Called when pictures must be drawn again because the WebGL context was lost.
     this.onLost = () => {};
   }
@@ -35,10 +36,12 @@ class Painter {
     return this.gl && !this.gl.isLost ? 'webgl2' : '2d';
   }
 
-  // Error of image i against the compared one; null while they cannot be compared.
+  // Error of image i against the compared one; null while they cannot be compared, or while there is
+  // no map of a kind that is computed at rest.
   plane(kind, i) {
     const image = this.images[i], other = this.images[this.state.compare];
     if (!areComparable(image, other)) return null;
+    if (isRestError(kind)) return this.rest.map(kind, i, this.state.compare);
     const key = `${this.state.compare} ${versionOf(image)} ${versionOf(other)}`;
     return this.planes.get(`${kind} ${i}`, key, held => errorPlane(
                                kind, image.data, other.data, held && held.values));
@@ -46,18 +49,21 @@ class Painter {
 
   // One scale for all images, to compare them; a brighter exposure narrows the range.
   errorScale() {
-    const {error, compare, stops} = this.state;
-    const versions = this.images.map(versionOf).join(' ');
-    const range = this.range.get(`${error} ${compare}`, versions, () => {
+    const {error, compare, stops} = this.state, isRest = isRestError(error);
+    const versions = isRest ? this.rest.made : this.images.map(versionOf).join(' ');
+    // Few maps are made at rest: each new one has the range of its numbers.
+    const subject = `${error} ${compare} ${isRest ? versions : ''}`;
+    const range = this.range.get(subject, versions, () => {
       const planes = this.images.map((_, i) => i === compare ? null : this.plane(error, i));
-      return commonSize(planes.filter(plane => plane).map(plane => plane.values));
+      return commonSize(planes.filter(plane => plane).map(plane => plane.values),
+                        ERRORS[error].isLikeness ? 1 : 0);
     });
     return errorScale(error, range * Math.pow(2, -stops), this.isLog());
   }
 
   isLog() {
     const {error, log} = this.state;
-    return error in log ? log[error] : ERRORS[error].log;
+    return canBeLog(error) && (error in log ? log[error] : ERRORS[error].log);
   }
 
   // Twelve stops of luminance; the sRGB view's mid grey is near the middle.
@@ -85,7 +91,7 @@ class Painter {
   // Returns a canvas of the image's size, or null while there is nothing to show.
   layer(view) {
     if (!this.images[view.image].data) return null;
-    if (view.isError) return this.errorLayer(view.image);
+    if (this.isErrorShown(view)) return this.errorLayer(view.image);
     const image = this.channelOf(view.image);
     const key = `${this.kind} ${versionOf(image)} ${this.state.tone} ${this.factor}`;
     return this.cache.get(`image ${view.image}`, key, held => {
@@ -99,16 +105,24 @@ class Painter {
     });
   }
 
+  // False if a view shows the picture, since its map is still to be computed.
+  isErrorShown(view) {
+    const {error} = this.state;
+    return view.isError && !(isRestError(error) && !this.plane(error, view.image));
+  }
+
   errorLayer(i) {
     const {error, compare} = this.state, image = this.images[i], reference = this.images[compare];
     const plane = this.plane(error, i);
     if (!plane) return null;
     const scale = this.errorScale();
-    const key = `${this.kind} ${error} ${compare} ${versionOf(image)} ${versionOf(reference)} ${
-        scale.hi} ${scale.log}`;
-    return this.cache.get(
-        `error ${i}`, key, held => this.glLayer({kind: error, image, reference, scale}, held) ||
-            scaledLayer(image, plane.values, scale, held));
+    const version = plane.serial ? `map ${plane.serial}`
+                                 : `${versionOf(image)} ${versionOf(reference)}`;
+    const key = `${this.kind} ${error} ${compare} ${version} ${scale.hi} ${scale.log}`;
+    return this.cache.get(`error ${i}`, key, held => {
+      const made = plane.serial ? null : this.glLayer({kind: error, image, reference, scale}, held);
+      return made || scaledLayer(image, plane.values, scale, held);
+    });
   }
 
   glLayer(job, held) { return this.kind === 'webgl2' ? this.gl.layer(job, held) : null; }
@@ -183,7 +197,7 @@ class Painter {
   texts(view, i) {
     const {data} = this.images[view.image];
     if (!data) return [];
-    if (!view.isError) {
+    if (!this.isErrorShown(view)) {
       const isOne = this.state.channel !== 'rgb';
       return Array.from(this.channelOf(view.image).data.subarray(3 * i, 3 * i + (isOne ? 1 : 3)),
                         shortNumber);
@@ -201,7 +215,7 @@ class Painter {
 
   pixelColour(view, i) {
     if (!this.images[view.image].data) return 0;
-    if (view.isError) {
+    if (this.isErrorShown(view)) {
       const plane = this.plane(this.state.error, view.image);
       return plane ? scaledColour(plane.values[i], this.errorScale()) : 0;
     }

@@ -24,13 +24,20 @@ function areComparable(a, b) {
       a.height === b.height && (a.epoch === b.epoch || (isOfPicture(a) && isOfPicture(b)));
 }
 
+// True if an image is shown by its error: not what it is compared with.
+function isErrorView({error, compare}, images, i) {
+  return error !== 'none' && i !== compare && areComparable(images[i], images[compare]);
+}
+
+// Returns the image left of the divider: what is compared with, unless another one was chosen.
+function leftImage({left, compare}, images) { return images[left] ? left : compare; }
+
 // Returns {height, views: [{x, y, width, height, image, isError, clip: [left, right] or absent}]}
 // in CSS pixels. With a divider the first view is left of it, the second right of it. `room`:
 // {width, mostHeight, isFilled}; `aspect` of the images, width over height.
 function layOut(state, images, aspect, room) {
   const {width, mostHeight} = room;
-  const isError = i => state.error !== 'none' && i !== state.compare &&
-      areComparable(images[i], images[state.compare]);
+  const isError = i => isErrorView(state, images, i);
   if (state.mode === 'side' && !state.held) {
     // Fit all views into the window, unless it is narrow.
     const sideHeight = mostHeight * (width < 600 && !room.isFilled ? 2 : 1);
@@ -53,9 +60,9 @@ function layOut(state, images, aspect, room) {
   const whole = {x: 0, y: 0, width, height};
   const shown = state.held ? state.compare : state.current;
   if (state.mode === 'wipe') {
-    const at = state.wipe * width;
+    const at = state.wipe * width, left = leftImage(state, images);
     return {height, views: [
-      {...whole, image: state.compare, isError: false, clip: [0, at]},
+      {...whole, image: left, isError: isError(left), clip: [0, at]},
       {...whole, image: shown, isError: isError(shown), clip: [at, width]}
     ]};
   }
@@ -115,6 +122,7 @@ class Stage {
     context.clip();
     const shown = shownPixels(camera, view, camera.width, camera.height);
     if (shown[2] > shown[0] && shown[3] > shown[1]) this.drawPicture(context, view, shown);
+    drawInsetFrames(context, camera, view, this.state.insets);
     if (image.data && this.hasCameraSize(image)) drawNonfinite(context, camera, view, image);
     if (image.marks) {
       drawMarks(context, camera, view, image.marks);

@@ -10,7 +10,7 @@ class Toolbar {
     this.error = makeChoice('Error view', [
       ['none', 'Image', commandTitle('next-error')],
       ...Object.entries(ERRORS).map(
-          ([kind, info]) => [kind, kind[0].toUpperCase() + kind.slice(1), info.formula])
+          ([kind, info]) => [kind, errorLabel(kind), info.formula])
     ], error => set({error}));
     this.tone = makeChoice('Colours', [
       ['srgb', 'sRGB', 'radiance times exposure, clipped (t)'],
@@ -59,9 +59,8 @@ class Toolbar {
     this.channel.show(state.channel);
     this.histogram.setAttribute('aria-pressed', state.histogram);
     this.rectangle.setAttribute('aria-pressed', isChoosing);
-    const canBeLog = state.error !== 'none' && !ERRORS[state.error].signed;
-    this.log.disabled = !canBeLog;
-    this.log.setAttribute('aria-pressed', canBeLog && painter.isLog());
+    this.log.disabled = !canBeLog(state.error);
+    this.log.setAttribute('aria-pressed', state.error !== 'none' && painter.isLog());
     const sign = state.stops < 0 ? '\u2212' : '+';
     setText(this.stops, `${sign}${Math.abs(state.stops).toFixed(1)} EV`);
   }

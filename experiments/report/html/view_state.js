@@ -7,6 +7,8 @@ const isIndexOf = (value, {images}) => Number.isInteger(value) && value in image
 // Test of each field's value, which comes from an address.
 const VIEW_FIELDS = {
   mode: isOneOf('single', 'wipe', 'side'), current: isIndexOf, compare: isIndexOf,
+  left: (value, viewer) => value === -1 || isIndexOf(value, viewer),
+  insets: value => Array.isArray(value) && validInsets(value).length === value.length,
   error: value => ERROR_ORDER.includes(value), stops: isBetween(-30, 30),
   tone: isOneOf('srgb', 'false'), channel: value => CHANNEL_ORDER.includes(value),
   log: value => value !== null && typeof value === 'object' &&

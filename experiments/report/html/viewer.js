@@ -16,16 +16,17 @@ class Viewer {
     const compare = Math.max(0, reference);
     const method = images.findIndex((_, i) => i !== compare);
     this.state = {
-      current: method < 0 ? 0 : method, compare,
+      // Right and left of the divider, and what errors are against; left -1: the same as compare.
+      current: method < 0 ? 0 : method, left: -1, compare,
       // Compare with the reference: a noisy image alone says little.
       mode: reference >= 0 && method >= 0 ? 'wipe' : 'single', error: 'none', stops: 0,
       tone: 'srgb', channel: 'rgb', log: {}, wipe: 0.5, held: false, opacity: 0.7,
-      histogram: false, rectangle: null
+      histogram: false, rectangle: null, insets: []
     };
     // Called after each drawing.
     this.onDrawn = () => {};
     this.painter = new Painter(this.state, images, data.exposure);
-    this.painter.onLost = () => this.redraw();
+    this.painter.onLost = this.painter.rest.onNews = () => this.redraw();
     this.camera = new Camera(images[0].width, images[0].height);
     this.build();
     new ResizeObserver(() => this.redraw()).observe(this.frame);
@@ -43,14 +44,17 @@ class Viewer {
     this.now = make('p', {class: 'visually-hidden', 'aria-live': 'polite'});
     this.legend = make('div', {class: 'legend'});
     this.list = new ImageList(this.images, this.data.whole, this.camera, {
-      choose: i => this.set({current: i}), compare: i => this.set({compare: i})
+      choose: i => this.set({current: i}), compare: i => this.set({compare: i}),
+      left: i => this.setLeft(i)
     });
     this.rectangle = new RectangleChoice(this);
     this.tools = new ViewerTools(this);
     this.toolbar = new Toolbar(this);
     this.said = make('p', {class: 'notice', role: 'status', hidden: ''});
-    this.root.replaceChildren(this.toolbar.element, this.said, this.frame, this.status, this.legend,
-                              this.tools.element, this.list.element, this.now);
+    this.insets = new Insets(this);
+    this.root.replaceChildren(this.toolbar.element, this.said, this.frame, this.status,
+                              this.insets.element, this.legend, this.tools.element,
+                              this.list.element, this.now);
     this.root.setAttribute('tabindex', 0);
     addPointer(this);
   }
@@ -58,7 +62,7 @@ class Viewer {
   set(change) {
     Object.assign(this.state, change);
     const {state} = this;
-    for (const key of ['current', 'compare', 'mode', 'error', 'stops', 'tone', 'channel']) {
+    for (const key of ['current', 'left', 'compare', 'mode', 'error', 'stops', 'tone', 'channel']) {
       this.root.dataset[key] = state[key];
     }
     this.toolbar.show(state, this.painter, this.rectangle.isOn);
@@ -104,11 +108,13 @@ class Viewer {
 
   describe() {
     const {state} = this;
-    const name = this.images[state.current].name, other = this.images[state.compare].name;
-    const error = state.error === 'none' ? '' : `, ${ERRORS[state.error].title} against ${other}`;
-    if (state.mode === 'side') return `all images side by side${error}`;
-    if (state.mode === 'wipe') return `${other} left of the divider, ${name}${error} right of it`;
-    return name + error;
+    const against = state.error === 'none'
+        ? '' : `, ${ERRORS[state.error].title} against ${this.images[state.compare].name}`;
+    const text = i => this.images[i].name + (i === state.compare ? '' : against);
+    if (state.mode === 'side') return `all images side by side${against}`;
+    if (state.mode !== 'wipe') return text(state.current);
+    return `${text(leftImage(state, this.images))} left of the divider, ${
+        text(state.current)} right of it`;
   }
 
   // Schedules a drawing for the next frame; repeated calls are merged.
@@ -125,7 +131,10 @@ class Viewer {
     const width = this.frame.clientWidth;
     if (!width) return;
     this.stage.arrange(this.state, this.room(width));
-    if (this.data.arranged) this.data.arranged(this.stage.views.map(view => view.image));
+    const {error, compare, insets} = this.state;
+    const inView = this.stage.views.map(view => view.image);
+    if (this.data.arranged) this.data.arranged(insets.length ? [...this.images.keys()] : inView);
+    this.painter.rest.want(isRestError(error) ? error : null, compare, inView);
     const hit = this.pointer && this.stage.hit(...this.pointer);
     this.pixel = hit ? hit.pixel : null;
     this.overView = hit ? hit.view : 0;
@@ -133,6 +142,7 @@ class Viewer {
     this.placeDivider(width);
     this.placeTags();
     this.showStatus();
+    this.insets.show();
     this.list.show(this.state, this.painter, this.pixel);
     showLegend(this.legend, this.state, this.painter, this.images);
     this.toolbar.showZoom(this.camera);
@@ -208,8 +218,8 @@ class Viewer {
       text += values(images[state.compare]);
       if (view.isError) {
         const plane = this.painter.plane(state.error, view.image);
-        const value = plane.values[this.camera.indexIn(image, pixel)];
-        text += `   ${ERRORS[state.error].title}: ${shortNumber(value)}`;
+        const value = plane && plane.values[this.camera.indexIn(image, pixel)];
+        if (plane) text += `   ${ERRORS[state.error].title}: ${shortNumber(value)}`;
       }
     }
     setText(this.status, text);
@@ -226,6 +236,16 @@ class Viewer {
     this.set({current: (this.state.current + by + n) % n});
   }
 
+  // Shows an image left of a divider.
+  setLeft(i) { this.set({left: i === this.state.compare ? -1 : i, mode: 'wipe'}); }
+
+  // Shows the next image left of the divider that is not right of it.
+  stepLeft() {
+    const n = this.images.length, now = leftImage(this.state, this.images);
+    const step = (now + 1) % n === this.state.current ? 2 : 1;
+    this.setLeft((now + step) % n);
+  }
+
   stepError(by) {
     const n = ERROR_ORDER.length;
     this.set({error: ERROR_ORDER[(ERROR_ORDER.indexOf(this.state.error) + by + n) % n]});
@@ -235,7 +255,7 @@ class Viewer {
 
   toggleLog() {
     const {error, log} = this.state;
-    if (error === 'none' || ERRORS[error].signed) return;
+    if (!canBeLog(error)) return;
     this.set({log: {...log, [error]: !this.painter.isLog()}});
   }
 

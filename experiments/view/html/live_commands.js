@@ -100,7 +100,7 @@ function makeLiveCommands(page) {
     {id: 'picture', keys: ['X'], group: session,
      title: 'save the chosen image as it was rendered, an EXR', run: () => page.savePicture()},
     {id: 'crop', keys: ['m'], group: session,
-     title: 'what is shown as a crop for restlab figure', run: () => giveCrop(page)},
+     title: 'the insets, or what is shown, as crops for restlab figure', run: () => giveCrop(page)},
     {id: 'measure', keys: ['M'], group: session, title: 'measure the session by restlab run',
      when: () => !page.measurement.isRunning, run: () => page.measure()},
     {id: 'cancel-measure', keys: [], group: session, title: 'end what is measured',
