@@ -194,10 +194,10 @@ TEST_F(ErrorMapsTest, WipeOfTwoErrors) {
 TEST_F(ErrorMapsTest, InsetsHaveTheirOwnErrors) {
   page("viewer.set({mode: 'single', current: 1});");
   pointAt(40, 10);
-  press("i", "KeyI");
+  press("I", "KeyI", true);
   browser_->evaluate("document.querySelector('.viewer').viewer.zoom(4)");
   settle();
-  press("i", "KeyI");
+  press("I", "KeyI", true);
   press("f", "KeyF");
   EXPECT_EQ(texts(".inset code").size(), 2u);
   EXPECT_EQ(texts(".inset code")[0], "37,8,8,5");
@@ -241,9 +241,9 @@ TEST_F(ErrorMapsTest, InsetsHaveTheirOwnErrors) {
   const std::vector<int> frame = canvasColour(pixelPosition(36.5, 9.5));
   EXPECT_GT(frame[0], 2 * frame[2]) << "red, between dark edges";
   screenshot("insets");
-  for (int i = 0; i < 3; ++i) press("i", "KeyI");
+  for (int i = 0; i < 3; ++i) press("I", "KeyI", true);
   EXPECT_EQ(texts(".inset").size(), 4u) << "no more than four";
-  press("I", "KeyI", true);
+  page("viewer.insets.remove(3);");
   click(".inset button");
   EXPECT_EQ(texts(".inset").size(), 2u);
   EXPECT_NE(texts(".inset code")[0], "37,8,8,5") << "the first one was taken away";

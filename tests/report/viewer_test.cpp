@@ -332,7 +332,9 @@ TEST_F(ViewerTest, ButtonsDoWhatKeysDo) {
   click(".viewer [data-value=wipe]");
   EXPECT_EQ(state("mode"), "wipe");
   EXPECT_EQ(attribute(".viewer [data-value=wipe]", "aria-pressed"), "true");
-  click(".viewer [data-value=squared]");
+  browser_->evaluate(
+      "(() => { const list = document.querySelector('.toolbar select'); list.value = 'squared'; "
+      "list.dispatchEvent(new Event('change')); })()");
   EXPECT_EQ(state("error"), "squared");
   click(".images tbody tr:nth-child(3) .name");
   EXPECT_EQ(state("current"), "2");

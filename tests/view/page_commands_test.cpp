@@ -48,6 +48,7 @@ const first = {
   single: () => viewer.set({mode: 'side'}),
   'image-2': () => viewer.set({current: 0}),
   'compare-3': () => viewer.set({compare: 0}),
+  'remove-inset': () => viewer.set({insets: [[0, 0, 0.5, 0.5]]}),
   'tab-methods': () => page.tabs.show('plots'),
   probe: () => rendered(),
   'clear-probe': async () => {
@@ -107,8 +108,8 @@ const reset = async () => {
   page.probe.clear();
   page.tabs.show('methods');
   viewer.rectangle.clear();
-  viewer.set({mode: 'wipe', current: 1, compare: 2, error: 'none', stops: 1.5, tone: 'srgb',
-              log: {}, held: false, channel: 'g', histogram: false});
+  viewer.set({mode: 'wipe', current: 1, left: -1, compare: 2, error: 'none', stops: 1.5,
+              tone: 'srgb', log: {}, held: false, channel: 'g', histogram: false, insets: []});
   viewer.setExposure(7);
   viewer.fit();
   viewer.draw();
@@ -141,12 +142,15 @@ const snapshot = () => ({
 const effects = {
   previous: (b, a) => a.current === 0, next: (b, a) => a.current === 2,
   'hold-compare': (b, a) => a.isHeld, 'hold-tab': (b, a) => a.isHeld,
+  'next-left': (b, a) => b.left === -1 && a.left === 0,
+  inset: (b, a) => a.insets.length === b.insets.length + 1,
+  'remove-inset': (b, a) => a.insets.length === b.insets.length - 1,
   single: (b, a) => a.mode === 'single', wipe: (b, a) => a.mode === 'wipe',
   side: (b, a) => a.mode === 'side', fit: (b, a) => !b.fitted && a.fitted,
   actual: (b, a) => b.scale !== 1 && a.scale === 1, 'zoom-in': (b, a) => a.scale > b.scale,
   'zoom-out': (b, a) => a.scale < b.scale,
   'next-error': (b, a) => b.error !== 'none' ? a.error === 'squared' : a.error === 'signed',
-  'previous-error': (b, a) => a.error === 'relative', log: (b, a) => a.log !== b.log,
+  'previous-error': (b, a) => a.error === 'flip_hdr', log: (b, a) => a.log !== b.log,
   brighter: (b, a) => a.stops === 2, darker: (b, a) => a.stops === 1,
   'exposure-reset': (b, a) => a.stops === 0, tone: (b, a) => a.tone === 'false',
   'auto-exposure': (b, a) => a.stops === 0 && a.exposure !== b.exposure,

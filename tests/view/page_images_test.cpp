@@ -65,6 +65,9 @@ TEST_F(PageImagesTest, ShowsThemAsItShowsMethods) {
     const double told = page(fmt::format("return page.last.panes[{}].mse.value;", i));
     EXPECT_NEAR(told, expected, 1e-6 * expected);
   }
+  page("viewer.set({error: 'ssim'}); await until(() => viewer.painter.plane('ssim', 1));");
+  EXPECT_NEAR(page("return viewer.painter.plane('ssim', 1).mean;").get<double>(),
+              evaluateMetric("ssim", striped(0.5f), striped(0.75f)).value, 1e-5);
   // All pixels are exact.
   const Image b = striped(0.5f);
   const Json data = page("return Array.from(viewer.images[1].data);");
@@ -213,6 +216,22 @@ TEST_F(PageImagesTest, GivesTheCropThatIsShown) {
   EXPECT_EQ(y + height, std::min(36.0, std::ceil(double(view[1][1]))));
   EXPECT_LT(width, 64);
   EXPECT_NEAR(exposure, double(view[2]), 1e-5 * exposure);
+  // With insets those, each as one crop.
+  page("window.copied = ''; viewer.set({insets: [[0.25, 0.5, 0.25, 0.25], [0, 0, 0.5, 0.5]]});");
+  press("m");
+  const std::string crops = page("await until(() => window.copied); return window.copied;");
+  EXPECT_EQ(crops.rfind("--crop 16,18,16,9 --crop 0,0,32,18 --exposure ", 0), 0u) << crops;
+}
+
+TEST_F(PageImagesTest, MapsComeWhenTheMethodsArePaused) {
+  open();
+  page(R"(send({do: 'pause', on: true});
+    await until(() => page.state.paused);
+    viewer.set({error: 'flip_ldr'});
+    await until(() => [0, 1].every(i => viewer.painter.plane('flip_ldr', i)));)");
+  const Json means = page("return [0, 1].map(i => viewer.painter.plane('flip_ldr', i).mean);");
+  for (const Json& mean : means) EXPECT_GT(mean.get<double>(), 0.01) << means;
+  EXPECT_NE(text(".legend").find("pixels per degree"), std::string::npos);
 }
 
 TEST_F(PageImagesTest, SavesThePictureAsItWasRendered) {

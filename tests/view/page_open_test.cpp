@@ -56,16 +56,18 @@ TEST_F(PageOpenTest, ReloadComesBackToTheSame) {
     send({do: 'parameter', pane: 0, name: 'confidence_cap', value: 9});
     send({do: 'resolution', width: 48, height: 32});
     await until(() => page.state.width === 48);
-    viewer.set({mode: 'wipe', error: 'squared', stops: 1.5, wipe: 0.25, current: 1});
+    viewer.set({mode: 'wipe', error: 'squared', stops: 1.5, wipe: 0.25, current: 1, left: 0,
+                insets: [[0.25, 0.5, 0.25, 0.125]]});
     await until(() => location.hash.includes('squared') && location.hash.includes('48'));)");
   const Json before = page(kState);
   browser_->evaluate("void (window.isOld = true, location.reload())");
   waitUntilShown(*browser_);
   EXPECT_EQ(page(kState), before) << "nothing was asked for, as all of it is so";
-  EXPECT_EQ(page("const {mode, error, stops, wipe, current} = viewer.state;"
-                 "return [mode, error, stops, wipe, current];"),
-            (Json{"wipe", "squared", 1.5, 0.25, 1}));
-  page("await until(() => seen[0] && seen[1] && viewer.images[0].width === 48);");
+  EXPECT_EQ(page("const {mode, error, stops, wipe, current, left} = viewer.state;"
+                 "return [mode, error, stops, wipe, current, left];"),
+            (Json{"wipe", "squared", 1.5, 0.25, 1, 0}));
+  page("await until(() => seen[0] && seen[1] && viewer.images[0].width === 48); await frame();");
+  EXPECT_EQ(text(".inset code"), "12,16,12,4") << "in pixels of the kept size";
 }
 
 TEST_F(PageOpenTest, ALinkShowsTheSameAgain) {

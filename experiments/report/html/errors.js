@@ -105,10 +105,10 @@ const ERROR_DECADES = 4;
 // Returns true if an error is computed at rest alone, in the background.
 const isRestError = kind => kind !== 'none' && Boolean(ERRORS[kind].steps);
 
-// Returns the text of an error's button: 'Signed' of 'signed error'.
+// Returns the title of an error as an entry of a list: with a capital letter.
 function errorLabel(kind) {
-  const {title} = ERRORS[kind], name = title.replace(/ error$/, '');
-  return name[0].toUpperCase() + name.slice(1);
+  const {title} = ERRORS[kind];
+  return title[0].toUpperCase() + title.slice(1);
 }
 
 // Returns true if an error may have a logarithmic scale.

@@ -10,7 +10,7 @@ class ImageList {
     const head = make('tr', {}, make('th', {scope: 'col'}, 'key'),
                       make('th', {scope: 'col'}, 'image'),
                       make('th', {scope: 'col'}, 'left'),
-                      make('th', {scope: 'col'}, 'compare with'),
+                      make('th', {scope: 'col', title: 'what errors are against'}, 'against'),
                       this.meanTitle = make('th', {scope: 'col', class: 'num'}),
                       make('th', {scope: 'col', class: 'num'}, 'R'),
                       make('th', {scope: 'col', class: 'num'}, 'G'),

@@ -7,11 +7,13 @@ class Toolbar {
       ['wipe', 'Wipe', commandTitle('wipe')],
       ['side', 'Side by side', commandTitle('side')]
     ], mode => set({mode}));
-    this.error = makeChoice('Error view', [
-      ['none', 'Image', commandTitle('next-error')],
-      ...Object.entries(ERRORS).map(
-          ([kind, info]) => [kind, errorLabel(kind), info.formula])
-    ], error => set({error}));
+    this.error = makeList('error view', commandTitle('next-error'), [
+      ['none', 'Image', 'radiance'],
+      ...Object.entries(ERRORS).map(([kind, info]) => [kind, errorLabel(kind), info.formula])
+    ], error => {
+      set({error});
+      viewer.root.focus({preventScroll: true});  // keys are the viewer's again
+    });
     this.tone = makeChoice('Colours', [
       ['srgb', 'sRGB', 'radiance times exposure, clipped (t)'],
       ['false', 'False colour', 'luminance on a logarithmic scale (t)']
@@ -44,11 +46,12 @@ class Toolbar {
     const tools = make('div', {class: 'group extra', role: 'group', 'aria-label': 'Tools'},
                        this.histogram, this.rectangle, button('link', 'link'));
     const search = button('\u2315', 'palette'), help = button('?', 'help');
-    this.error.element.append(this.log);
     this.tone.element.append(this.channel.element);
+    const error = make('div', {class: 'group', role: 'group', 'aria-label': 'Error view'},
+                       this.error.element, this.log);
     this.element = make('div', {class: 'toolbar', role: 'group', 'aria-label': 'Image viewer'},
-                        this.mode.element, this.error.element, this.tone.element, exposure, zoom,
-                        tools, make('div', {class: 'group'}, search, help));
+                        this.mode.element, error, this.tone.element, exposure, zoom, tools,
+                        make('div', {class: 'group'}, search, help));
   }
 
   // `isChoosing`: the next drag chooses a rectangle.
