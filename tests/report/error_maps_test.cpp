@@ -218,8 +218,7 @@ TEST_F(ErrorMapsTest, InsetsHaveTheirOwnErrors) {
       double mse = 0.0, relmse = 0.0;
       const std::string& caption = captions[3 * k + i];
       ASSERT_EQ(
-          std::sscanf(caption.c_str() + caption.find("MSE"), "MSE %lf relMSE %lf", &mse, &relmse),
-          2)
+          std::sscanf(caption.c_str() + caption.find("MSE"), "MSE %lfrelMSE %lf", &mse, &relmse), 2)
           << caption;
       const double expected = evaluateMetric("mse", image, reference_, options).value;
       EXPECT_NEAR(mse, expected, 0.006 * expected) << caption;

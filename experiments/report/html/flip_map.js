@@ -99,8 +99,8 @@ function flipColourError(distance) {
       (1 - FLIP_KNEE_OF_RESULT) * (distance - knee) / (FLIP_LARGEST - knee);
 }
 
-// Raises values to the errors of pixels from..to of a band, which begins at `at`. A NaN, once there,
-// stays.
+// Raises values to the errors of pixels from..to of a band, which begins at `at`. A NaN, once
+// there, stays.
 function raiseFlip(x, y, values, at, from, to) {
   for (let k = from; k < to; ++k) {
     const colour = flipColourError(flipDistance(x.l[k] - y.l[k], x.a[k] - y.a[k], x.b[k] - y.b[k]));

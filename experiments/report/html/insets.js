@@ -6,6 +6,8 @@ const MOST_INSETS = 4;
 const INSET_COLOURS = ['#ff5a4f', '#39c0ff', '#ffd23f', '#6be675'];
 // Largest height of a crop in CSS pixels, and the size of one of a whole picture, as a share of it.
 const INSET_HEIGHT = 132, INSET_SHARE = 1 / 8;
+// Border of the crops and gap between two insets in one row, as in style.css.
+const INSET_BORDER = 3, INSET_GAP = 16;
 
 // Returns the pixels [x, y, width, height] of an inset of a picture; at least one.
 function insetPixels([x, y, width, height], picture) {
@@ -18,10 +20,17 @@ function insetPixels([x, y, width, height], picture) {
   return [left, top, across, down];
 }
 
+// Returns pixels as shares, with digits enough to find the pixels again.
+function insetShares([x, y, across, down], {width, height}) {
+  return [x / width, y / height, across / width, down / height].map(
+      share => Number(share.toPrecision(7)));
+}
+
 // Returns the insets among values from elsewhere: four at most, inside the picture.
 function validInsets(values) {
-  const isInset = value => Array.isArray(value) && value.length === 4 &&
-      value.every(share => share >= 0 && share <= 1) && value[2] > 0 && value[3] > 0;
+  const isShare = value => Number.isFinite(value) && value >= 0 && value <= 1;
+  const isInset = value => Array.isArray(value) && value.length === 4 && value.every(isShare) &&
+      value[2] > 0 && value[3] > 0;
   return Array.isArray(values) ? values.filter(isInset).slice(0, MOST_INSETS) : [];
 }
 
@@ -31,16 +40,15 @@ function insetHere(viewer) {
   const {camera, stage, pixel} = viewer, {width, height} = camera;
   const [x0, y0, x1, y1] = shownPixels(camera, stage.views[0], width, height);
   if (x1 - x0 < width || y1 - y0 < height) {
-    return [x0 / width, y0 / height, (x1 - x0) / width, (y1 - y0) / height];
+    return insetShares([x0, y0, x1 - x0, y1 - y0], camera);
   }
   const {x, y} = pixel || {x: width / 2, y: height / 2};
   const place = (at, all) => {
     const size = Math.ceil(INSET_SHARE * all);
-    const first = Math.round(Math.min(Math.max(at + 0.5 - size / 2, 0), all - size));
-    return [first / all, size / all];
+    return [Math.round(Math.min(Math.max(at + 0.5 - size / 2, 0), all - size)), size];
   };
   const [left, across] = place(x, width), [top, down] = place(y, height);
-  return [left, top, across, down];
+  return insetShares([left, top, across, down], camera);
 }
 
 // Draws the frames of the insets into a view.
@@ -59,7 +67,8 @@ class Insets {
     this.viewer = viewer;
     this.boxes = [];
     this.errors = new SlotCache();
-    this.element = make('div', {class: 'insets', role: 'group', 'aria-label': 'Insets', hidden: ''});
+    this.element = make('div', {class: 'insets', role: 'group', 'aria-label': 'Insets',
+                                hidden: ''});
   }
 
   get list() { return this.viewer.state.insets; }
@@ -98,7 +107,10 @@ class Insets {
   showBox({place, captions, stage}, inset, k) {
     const {viewer} = this, {images, state, camera} = viewer;
     const pixels = insetPixels(inset, camera), [x, y, width, height] = pixels, n = images.length;
-    const room = viewer.frame.clientWidth - 6 - VIEW_GAP * (n - 1);
+    // Two in a row, unless their crops would be too small.
+    const columns = state.insets.length > 1 && n < 5 ? 2 : 1;
+    const across = (this.element.clientWidth - INSET_GAP * (columns - 1)) / columns;
+    const room = across - 2 * INSET_BORDER - VIEW_GAP * (n - 1);
     const cell = Math.max(24, Math.floor(Math.min(room / n, INSET_HEIGHT * width / height)));
     const scale = cell / width;
     Object.assign(stage.camera, {width: camera.width, height: camera.height, fitted: false, scale,
@@ -114,7 +126,7 @@ class Insets {
     stage.draw(viewer.pixel, -1);
     setText(place, this.text(inset));
     const errors = images.map((_, i) => this.errorsOf(k, i, pixels));
-    const texts = images.map((image, i) => [image.name, insetCaption(errors[i])]);
+    const texts = images.map((image, i) => [image.name, ...insetNumbers(errors[i])]);
     stage.canvas.setAttribute('aria-label', `${this.text(inset)} of ${
         texts.map(words => words.join(' ')).join('; ')}`);
     captions.style.gridTemplateColumns = `repeat(${n}, ${cell}px)`;
@@ -134,13 +146,16 @@ class Insets {
   showCaptions(captions, texts) {
     while (captions.children.length > texts.length) captions.lastChild.remove();
     while (captions.children.length < texts.length) {
-      captions.append(make('p', {}, make('span', {}), make('span', {class: 'num'})));
+      captions.append(make('p', {}, make('span', {}), make('span', {class: 'num'}),
+                           make('span', {class: 'num'})));
     }
     texts.forEach((words, i) => words.forEach(
                       (text, part) => setText(captions.children[i].children[part], text)));
   }
 }
 
-function insetCaption(errors) {
-  return errors ? `MSE ${shortNumber(errors.mse)} relMSE ${shortNumber(errors.relmse)}` : '';
+// Returns the lines of a crop's errors.
+function insetNumbers(errors) {
+  return errors ? [`MSE ${shortNumber(errors.mse)}`, `relMSE ${shortNumber(errors.relmse)}`]
+                : ['', ''];
 }

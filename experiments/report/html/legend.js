@@ -40,7 +40,8 @@ function isScaleThere(state, images) {
 function restText({error, compare}, painter, images) {
   if (!isRestError(error)) return '';
   const maps = images.map((_, i) => painter.rest.map(error, i, compare)).filter(map => map);
-  return maps.length ? maps[0].text : 'computed once the picture has been the same for half a second';
+  return maps.length ? maps[0].text
+                     : 'computed once the picture has been the same for half a second';
 }
 
 // Returns the upper end of the scale of the overlay on image i.

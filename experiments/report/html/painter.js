@@ -36,8 +36,8 @@ class Painter {
     return this.gl && !this.gl.isLost ? 'webgl2' : '2d';
   }
 
-  // Error of image i against the compared one; null while they cannot be compared, or while there is
-  // no map of a kind that is computed at rest.
+  // Error of image i against the compared one; null while they cannot be compared, or while there
+  // is no map of a kind that is computed at rest.
   plane(kind, i) {
     const image = this.images[i], other = this.images[this.state.compare];
     if (!areComparable(image, other)) return null;
