@@ -163,8 +163,8 @@ TEST(UnusedSettings, ChangeNoFrame) {
         const std::optional<SessionConfig> other = changed(config, name, why);
         if (!other) continue;
         std::string words;
-        for (const auto& [key, value] : condition)
-          words += fmt::format(" {} = {}", key, parameterText(value));
+        for (const auto& [parameter, value] : condition)
+          words += fmt::format(" {} = {}", parameter, parameterText(value));
         SCOPED_TRACE(fmt::format("{} {} {}:{}: {} ({})", config.integrator, config.cache,
                                  config.denoiser, words, name, why));
         try {
