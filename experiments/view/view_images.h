@@ -26,7 +26,7 @@ struct ViewImages {
   std::vector<FileImage> list;
   std::optional<Reference> reference;
   std::filesystem::path referenceFile;
-  // Of a folder of results; empty of other images.
+  // Folder of results and its tables; empty of other images.
   std::filesystem::path folder;
   std::string table;
   std::vector<std::string> tables;

@@ -17,7 +17,10 @@ constexpr const char* kProblems = R"(
                  '.live-header h1', '.link', 'label > span', '.parameter > label'].join();
   for (const one of document.querySelectorAll(texts)) {
     if (!isShown(one) || getComputedStyle(one).display === 'inline') continue;
-    if (one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0) say('cut', one);
+    const range = document.createRange();
+    range.selectNodeContents(one);
+    const width = Math.max(one.scrollWidth, range.getBoundingClientRect().width);
+    if (width > one.clientWidth + 1 && one.clientWidth > 0) say('cut', one);
     const panel = one.closest('.panel, .numbers-box, .scroll');
     const box = one.getBoundingClientRect();
     if (panel && box.right > panel.getBoundingClientRect().right + 1) say('beyond its panel', one);

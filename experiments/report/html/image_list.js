@@ -18,9 +18,9 @@ class ImageList {
                       this.hereTitle = make('th', {scope: 'col', class: 'num'}));
     this.body = make('tbody', {});
     this.build();
-    const table = make('table', {class: 'images'}, make('thead', {}, head), this.body);
+    this.table = make('table', {class: 'images'}, make('thead', {}, head), this.body);
     this.element = make('div', {class: 'scroll', role: 'region', tabindex: 0,
-                                'aria-label': 'Images and their values'}, table);
+                                'aria-label': 'Images and their values'}, this.table);
   }
 
   // Makes the rows; called again for other images.
@@ -54,6 +54,7 @@ class ImageList {
   show(state, painter, pixel) {
     const kind = state.error;
     const metric = kind === 'none' ? '' : ERRORS[kind].metric;
+    this.table.classList.toggle('plain', kind === 'none');
     setText(this.meanTitle, metric && !this.whole ? `${metric}, crop` : metric);
     this.meanTitle.title = metric && `mean over the pixels here, against ${
         this.images[state.compare].name}`;

@@ -31,7 +31,6 @@ function makeLiveCommands(page) {
   // True if the arrow keys turn the camera.
   const isTurning = () => isOn() || page.camera.isOrbit;
   const panes = page.hello.has_scene ? page.state.panes : [];
-  const hasTables = () => page.hello.tables.length > 1;
   const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
   const commands = [
     ...FLY_KEYS.map(([way, keys, title]) => ({
@@ -77,13 +76,7 @@ function makeLiveCommands(page) {
          id: `show-${pane}-${value}`, keys: [], group: session,
          title: `${PANE_NAMES[pane]} shows ${sourceText(value)}`,
          run: send({do: 'set', pane, key: 'source', value})}))),
-    {id: 'previous-table', keys: ['PageUp'], group: 'Images', when: hasTables,
-     title: 'previous table of the results', run: () => stepTable(page, -1)},
-    {id: 'next-table', keys: ['PageDown'], group: 'Images', when: hasTables,
-     title: 'next table of the results', run: () => stepTable(page, 1)},
-    ...page.hello.tables.map(name => ({
-         id: `table-${name}`, keys: [], group: 'Images', title: `table ${name}`, when: hasTables,
-         run: send({do: 'table', name})})),
+    ...makeTableCommands(page),
     ...componentsOf(page).map(value => ({
          id: `component-${value}`, keys: [], group: session,
          title: `light that is shown: ${value}`, run: () => showComponent(page, value)})),

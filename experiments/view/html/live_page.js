@@ -264,7 +264,7 @@ class LivePage {
   showNumbers(numbers) {
     if (!this.viewer) return;
     this.last = numbers;
-    // Those of another table wait for its state.
+    // Numbers of another table wait for its state.
     if (!this.hello.has_scene && numbers.epoch !== this.viewer.data.epoch) return;
     this.warnings.follow(numbers);
     numbers.panes.forEach(({mse, ms}, i) => {
