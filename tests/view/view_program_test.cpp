@@ -295,7 +295,8 @@ TEST_F(ViewProgramTest, ShowsImagesOfFiles) {
       EXPECT_EQ(hello["has_scene"], false);
       EXPECT_EQ(hello["has_reference"], true);
       Json names = Json::array();
-      for (const Json& pane : page.waitFor("state")["panes"]) names.push_back(pane["source"]);
+      const Json state = page.waitFor("state");
+      for (const Json& pane : state["panes"]) names.push_back(pane["source"]);
       const Json numbers = page.waitFor("numbers");
       EXPECT_GT(numbers["panes"][0]["mse"]["value"], 0.0);
       EXPECT_EQ(numbers["reference"]["spp"], 4);
