@@ -72,7 +72,7 @@ class Histogram {
     const shown = (isError ? [current] : [...new Set([current, compare])])
                       .filter(i => images[i].data);
     const key = [isError && error, state.channel, axis.shown.lo, axis.shown.hi, axis.shown.log,
-                 ...shown.map(i => `${i} ${versionOf(images[i])} ${images[i].epoch} ${images[i].name}`),
+                 ...shown.map(i => [i, versionOf(images[i]), images[i].epoch, images[i].name]),
                  isError && versionOf(images[compare])].join('|');
     if (key === this.key || !this.due.isDue()) return;
     const plane = isError ? painter.plane(error, current) : null;
