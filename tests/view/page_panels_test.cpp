@@ -86,6 +86,7 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   EXPECT_EQ(page("return page.probe.answers.map(one => [one.frame, one.epoch]);"), first)
       << "panes stand";
   page(
+      "viewer.set({mode: 'side'});"  // what is out of view renders nothing
       "send({do: 'pause', on: false});"
       "await until(() => page.probe.answers.every(one => one.epoch === page.state.epoch));");
   EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos)

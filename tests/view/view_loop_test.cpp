@@ -345,8 +345,9 @@ Json randomCommand(std::mt19937& random) {
     case 12:
       return {{"do", pick({"undo", "redo", "dance", ""})}};
     case 13:
-      return below(2) == 0 ? Json{{"do", "adaptive"}, {"on", below(4) > 0}}
-                           : Json{{"do", "look"}, {"on", below(4) > 0}, {"panes", {pane, below(70)}}};
+      return below(2) == 0
+                 ? Json{{"do", "adaptive"}, {"on", below(4) > 0}}
+                 : Json{{"do", "look"}, {"on", below(4) > 0}, {"panes", {pane, below(70)}}};
     default:
       return below(2) == 0 ? Json::array() : Json{{"do", "camera"}, {"to_world", {1, 2}}};
   }

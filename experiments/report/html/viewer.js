@@ -275,6 +275,7 @@ class Viewer {
   // Zooms about a position in the stage (CSS pixels), or about the centre. Returns false if nothing
   // moved.
   zoom(factor, x, y) {
+    if (this.camera.scale === undefined) this.draw();  // the first drawing places the views
     const hit = x === undefined ? null : this.stage.hit(x, y);
     const view = this.stage.views[hit ? hit.view : 0];
     const moved = this.camera.zoom(factor, hit ? x - view.x - view.width / 2 : 0,
