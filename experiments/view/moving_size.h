@@ -15,7 +15,7 @@ class MovingSize {
   static constexpr double kRestS = 0.2;
   // Time of a round of frames that a motion begins with, and the longest one before frames become
   // smaller.
-  static constexpr double kWantedRoundS = 0.06, kLongestRoundS = 0.1;
+  static constexpr double kWantedRoundS = 0.04, kLongestRoundS = 0.08;
   // Width and height are divided by 1, 2, 4 or 8.
   static constexpr uint32_t kMostDivisor = 8;
 
@@ -32,8 +32,11 @@ class MovingSize {
   }
   // A round of frames with that divisor took so long.
   void rendered(uint32_t divisor, double seconds);
-  // Duration of the last round of whole or of smaller frames; 0: none yet.
-  double roundS(uint32_t divisor) const { return divisor == 1 ? wholeS_ : movingS_; }
+  // Expected duration of a round, by the last one of its kind; 0: unknown.
+  double roundS(uint32_t divisor) const {
+    if (divisor == 1) return wholeS_;
+    return movingS_ > 0.0 ? movingS_ : wholeS_ / double(divisor * divisor);
+  }
 
  private:
   bool isAdaptive_ = true, hasMoved_ = false;

@@ -37,10 +37,12 @@ std::vector<SessionConfig> twoPanes(uint32_t width = 64, uint32_t height = 48) {
 TEST(MovingSizes, FollowTheTimeOfFrames) {
   MovingSize size;
   EXPECT_EQ(size.divisor(atSecond(0)), 1u) << "nothing moves";
-  size.rendered(1, 0.2);
+  size.rendered(1, 0.12);
   size.move(atSecond(0));
-  EXPECT_EQ(size.divisor(atSecond(0.01)), 2u) << "a quarter of 0.2 s is below 0.06 s";
-  size.rendered(2, 0.09);
+  EXPECT_EQ(size.divisor(atSecond(0.01)), 2u) << "a quarter of 0.12 s is below 0.04 s";
+  EXPECT_DOUBLE_EQ(size.roundS(2), 0.03);
+  size.rendered(2, 0.07);
+  EXPECT_EQ(size.roundS(2), 0.07);
   EXPECT_EQ(size.divisor(atSecond(0.1)), 2u);
   size.move(atSecond(0.15));
   size.rendered(2, 0.11);
@@ -49,7 +51,7 @@ TEST(MovingSizes, FollowTheTimeOfFrames) {
   size.rendered(8, 0.5);
   EXPECT_EQ(size.divisor(atSecond(0.2)), 8u) << "never smaller";
   EXPECT_EQ(size.divisor(atSecond(0.4)), 1u) << "the hand rests";
-  size.rendered(1, 0.05);
+  size.rendered(1, 0.03);
   size.move(atSecond(1));
   EXPECT_EQ(size.divisor(atSecond(1)), 1u) << "fast enough as it is";
   size.rendered(1, 10.0);

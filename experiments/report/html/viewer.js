@@ -120,11 +120,18 @@ class Viewer {
   // Schedules a drawing for the next frame; repeated calls are merged.
   redraw() {
     if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
       this.draw();
     });
+  }
+
+  // Draws what waits at once: called within a frame of the browser.
+  drawWaiting() {
+    if (!this.waiting) return;
+    cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    this.draw();
   }
 
   draw() {

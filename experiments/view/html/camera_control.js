@@ -1,6 +1,7 @@
 // Moves the camera of the scene by hand: camera mode (fly with keys, look with the pointer) and
 // orbits.
 
+const FIRST_STEP_MS = 16;
 const WHEEL_STEP = 1.2, FAST = 4, TURN_KEYS_SPEED = 1.2;  // radians a second
 
 class CameraControl {
@@ -68,8 +69,10 @@ class CameraControl {
     if (this.isFlying) return;
     this.orbitCentre = this.targetOf(this.pose);
     this.isFlying = true;
-    this.last = performance.now();
-    requestAnimationFrame(time => this.fly(time));
+    // The first step is taken at once: a key is answered without waiting for a frame.
+    const now = performance.now();
+    this.last = now - FIRST_STEP_MS;
+    this.fly(now);
   }
 
   release(way) { this.held.delete(way); }

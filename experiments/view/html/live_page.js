@@ -37,7 +37,8 @@ class LivePage {
         if (this.viewer) this.showCameraMode();
       },
       file: ({name, base64}) => downloadBlob(name, new Blob([bytesOfBase64(base64)])),
-      image: head => this.showImage(head), link: state => this.header.showLink(state)
+      image: head => this.showImage(head), images: () => this.viewer?.drawWaiting(),
+      link: state => this.header.showLink(state)
     });
   }
 

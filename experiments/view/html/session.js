@@ -16,7 +16,7 @@ const ANSWER_TIMEOUT = 1500;
 
 class Session {
   // `on`: a function for each message (hello, state, numbers, ...), `image(head)` for the newest
-  // image of a slot, called before a repaint, and `link(state)`.
+  // image of a slot, called before a repaint, then `images()`, and `link(state)`.
   constructor(url, on) {
     Object.assign(this, {on, hello: null, state: null, images: new Map(), waiting: new Map()});
     this.socket = new Socket(url, {
@@ -55,6 +55,7 @@ class Session {
       const newest = [...this.images.values()];
       this.images.clear();
       for (const one of newest) this.on.image(one);
+      this.on.images();
     });
   }
 
