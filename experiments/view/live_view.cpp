@@ -204,7 +204,7 @@ void LiveView::addFrame(Pane& pane, const FrameStats& stats) {
   pane.showsMoving = divisor_ > 1;
   ++(pane.showsMoving ? pane.movingFrames : pane.frames);
   (pane.showsMoving ? pane.movingEpoch : pane.epoch) = epoch_;
-  ++pane.age;
+  if (!pane.showsMoving) ++pane.age;
   if (!reference_.hasImage() || pane.showsMoving) return;
   pane.error.add(pane.session->radiance(), reference_.mean(), reference_.half0(),
                  reference_.half1(), reference_.spp());

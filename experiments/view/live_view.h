@@ -76,7 +76,7 @@ class LiveView {
   uint64_t pictureBegun() const { return pictureBegun_; }
   // Increases when the reference starts anew.
   uint64_t picture() const { return picture_; }
-  // Frames of the pane since begun().
+  // Whole frames of the pane since begun().
   uint64_t age(size_t pane) const { return panes_.at(pane).age; }
   size_t panes() const { return panes_.size(); }
   const ViewSettings& settings() const { return settings_; }

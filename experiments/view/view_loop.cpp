@@ -107,7 +107,8 @@ void ViewLoop::take(const std::vector<PageEvent>& events) {
     if (event.kind == PageEvent::Kind::opened) welcome(event.client);
     if (event.kind == PageEvent::Kind::closed) {
       sender_.closed(event.client);
-      waitingProbes_.erase(event.client);
+      std::erase_if(waitingProbes_,
+                    [&](const auto& waiting) { return waiting.first.first == event.client; });
       applySeen();
     }
     if (event.kind != PageEvent::Kind::said) continue;
@@ -151,14 +152,15 @@ void ViewLoop::welcome(ClientId page) {
 
 bool ViewLoop::obey(ClientId page, const ViewCommand& command) {
   if (const auto* look = std::get_if<Look>(&command)) {
+    const bool wasHidden = sender_.isHidden(page);
     sender_.setSeen(page, look->on, look->panes);
     applySeen();
-    if (look->on) showAll();
+    if (look->on && wasHidden) showAll();
     return false;
   }
   if (const auto* probe = std::get_if<Probe>(&command)) {
     if (probe->pane < view_.panes() && view_.isMoving(probe->pane)) {
-      waitingProbes_[page] = *probe;
+      waitingProbes_[{page, probe->pane}] = *probe;
     } else {
       sender_.tell(page, probeText(facts_, view_, *probe));
     }
@@ -199,15 +201,24 @@ void ViewLoop::change(const ViewCommand& command) {
   }
   if (const auto* adapt = std::get_if<AdaptMotion>(&command))
     return movingSize_.setAdaptive(adapt->on);
-  if (std::holds_alternative<SetSetting>(command)) sender_.tellProgress(preparingText());
+  const auto* set = std::get_if<SetSetting>(&command);
+  const bool isPreparing = set != nullptr && set->key != "source";
+  if (isPreparing) sender_.tellProgress(preparingText());
   const uint64_t epoch = view_.epoch(), picture = view_.picture();
-  view_.apply(command);
+  const SceneCamera camera = view_.camera();
+  try {
+    view_.apply(command);
+  } catch (...) {
+    // A state ends what pages say of the preparation.
+    if (isPreparing) sender_.tellState(stateText(view_, {isPaused_, movingSize_.isAdaptive()}));
+    throw;
+  }
   if (view_.epoch() != epoch) changed_ = Clock::now();
+  if (!isSameCamera(camera, view_.camera())) movedEpoch_ = view_.epoch();
   if (std::holds_alternative<MoveCamera>(command) && view_.epoch() != epoch) {
     // Smaller frames show the move: a whole one before them may be dropped at once.
     if (movingSize_.isAdaptive() && !movingSize_.isMoving(changed_)) wasDropped_ = false;
     movingSize_.move(changed_);
-    owesFrame_ = isPaused_;
   }
   if (view_.picture() != picture) {
     pictureChanged_ = changed_;
@@ -280,23 +291,6 @@ LiveView::StopCheck ViewLoop::stopCheck(double patienceS) const {
   };
 }
 
-LiveView::StopCheck ViewLoop::tellingStopCheck(double patienceS) {
-  constexpr double kLongS = 0.4, kIntervalS = 0.25;
-  const auto start = Clock::now();
-  auto told = std::make_shared<Clock::time_point>(start);  // the check is copied
-  const auto thread = std::this_thread::get_id();
-  return [this, check = stopCheck(patienceS), start, told, thread] {
-    // Only this thread sends; with others it would race.
-    if (std::this_thread::get_id() == thread && secondsSince(start) >= kLongS &&
-        secondsSince(*told) >= kIntervalS) {
-      *told = Clock::now();
-      const auto [pane, fraction] = view_.progress();
-      sender_.tellProgress(progressText(pane, view_.frames(pane) + 1, fraction));
-    }
-    return check();
-  };
-}
-
 void ViewLoop::renderRound() {
   const Clock::time_point start = Clock::now();
   view_.setDivisor(movingSize_.divisor(start));
@@ -306,18 +300,16 @@ void ViewLoop::renderRound() {
   for (size_t i = 0; i < view_.panes(); ++i) {
     if (!view_.renders(i) || !view_.isSeen(i)) continue;
     isNew = isNew || view_.frames(i) == 0;
-    isFirst = isFirst || (divisor > 1 && !view_.isMoving(i));
+    isFirst = isFirst || (divisor > 1 && (!view_.isMoving(i) || divisor != lastDivisor_));
   }
   const double lastS = movingSize_.roundS(divisor);
   const bool isShort = !isNew && lastS > 0.0 && lastS < kLongRoundS;
   wasDropped_ = !renderFrames(isShort ? LiveView::StopCheck()
                                       : tellingStopCheck(wasDropped_ ? kPatienceS : 0.0));
   if (wasDropped_) return;
+  lastDivisor_ = divisor;
   if (!isFirst) movingSize_.rendered(divisor, secondsSince(start));
-  if (divisor == 1) {
-    owesFrame_ = false;
-    answerProbes();
-  }
+  if (divisor == 1) answerProbes();
   showPanes();
   tellNumbers();
   // Credit is spent at once if samples take longer than rounds; bound it.
@@ -332,29 +324,15 @@ bool ViewLoop::renderFrames(const LiveView::StopCheck& isStopped) {
     movingSize_.setAdaptive(false);
     view_.setDivisor(1);
     sender_.tellAll(errorText(fmt::format("no smaller frames: {}", error.what()), ""));
+    sender_.tellState(stateText(view_, {isPaused_, false}));
     return false;
   }
 }
 
-void ViewLoop::answerProbes() {
-  for (const auto& [page, probe] : std::exchange(waitingProbes_, {})) {
-    try {
-      sender_.tell(page, probeText(facts_, view_, probe));
-    } catch (const Error& error) {
-      sender_.tell(page, errorText(error.what(), ""));
-    }
-  }
-}
-
-void ViewLoop::applySeen() {
-  const uint64_t seen = tev_ ? ~uint64_t(0) : sender_.seenPanes();
-  for (size_t i = 0; i < std::min<size_t>(view_.panes(), 64); ++i)
-    view_.setSeen(i, (seen >> i & 1) != 0);
-}
-
 bool ViewLoop::refine() {
   const LiveReference& reference = view_.reference();
-  if (!view_.hasScene() || measurement_.isRunning() || owesFrame_) return false;
+  if (!view_.hasScene() || measurement_.isRunning()) return false;
+  if (isPaused_ && owesFrame()) return false;
   // Rounds may be longer than kStillS: a drag may have sent more commands meanwhile.
   if (secondsSince(pictureChanged_) < kStillS || events_.areWaiting()) return false;
   if (reference.spp() >= kMostReferenceSpp || view_.picture() == withoutReference_) return false;

@@ -74,6 +74,9 @@ class ViewLoop {
   void renderRound();
   bool renderFrames(const LiveView::StopCheck& isStopped);
   void answerProbes();
+  // True if a pane in view shows a smaller frame or another camera, which even a paused one
+  // replaces.
+  bool owesFrame() const;
   // Lets panes render that a visible page shows.
   void applySeen();
   // Adds a sample to the reference. Returns true if one was due.
@@ -85,7 +88,7 @@ class ViewLoop {
   void showStanding(bool isUrgent);
   // True if no frame is due.
   bool isStanding() const {
-    return (isPaused_ && !owesFrame_) || !view_.rendersAny() || measurement_.isRunning();
+    return (isPaused_ && !owesFrame()) || !view_.rendersAny() || measurement_.isRunning();
   }
   // Runs `restlab run` on the current settings. Nothing renders meanwhile: its times need a quiet
   // machine.
@@ -104,10 +107,11 @@ class ViewLoop {
   ViewSender sender_;
   std::atomic<bool> isStopped_{false};
   bool isPaused_ = false;
-  bool owesFrame_ = false;  // the camera was moved while panes are paused
+  uint64_t movedEpoch_ = 0;  // epoch of the last move of the camera
   MovingSize movingSize_;
-  std::map<ClientId, Probe> waitingProbes_;  // asked while the view moves
-  uint32_t filesWritten_ = 0;                // saved sessions
+  std::map<std::pair<ClientId, uint32_t>, Probe> waitingProbes_;  // by pane, asked while it moves
+  uint32_t lastDivisor_ = 1;                                      // of the last round
+  uint32_t filesWritten_ = 0;                                     // saved sessions
   Measurement measurement_;
   uint64_t withoutReference_ = 0;  // picture whose reference has no memory
   Clock::time_point changed_, pictureChanged_;

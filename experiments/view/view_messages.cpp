@@ -1,5 +1,7 @@
 #include "experiments/view/view_messages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -203,10 +205,14 @@ Json materialParameter(const LiveView& view, const ListedMaterial& of, const Clo
 // what the file has.
 Json materialsJson(const LiveView& view) {
   Json all = Json::array();
-  for (size_t i = 0; i < view.fileMaterials().size(); ++i) {
-    const ListedMaterial& listed = view.fileMaterials()[i];
+  for (const ListedMaterial& listed : view.fileMaterials()) {
     const SceneFileMaterial& material = listed.material;
-    const std::string& loadedKind = view.loadedMaterials().at(i).material.kind->name;
+    // The file may have been edited since it was loaded.
+    const std::vector<ListedMaterial>& loaded = view.loadedMaterials();
+    const auto same = std::find_if(loaded.begin(), loaded.end(), [&](const ListedMaterial& one) {
+      return one.bases == listed.bases && one.material.name == material.name;
+    });
+    const std::string& loadedKind = (same == loaded.end() ? material : same->material).kind->name;
     Json parameters = Json::array();
     parameters.push_back(materialParameter(view, listed, kindParameter(), loadedKind));
     for (size_t k = 0; k < material.kind->parameters.size(); ++k) {

@@ -38,6 +38,7 @@ class ViewSender {
   // Hides or shows a page: a page in the background gets no numbers and no images. `panes`: those
   // that it shows, as bits.
   void setSeen(ClientId page, bool isSeen, uint64_t panes);
+  bool isHidden(ClientId page) const { return unseen_.count(page) > 0; }
   // Panes that a visible page shows, as bits; all if no page is open.
   uint64_t seenPanes() const;
 

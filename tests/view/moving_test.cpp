@@ -171,10 +171,12 @@ TEST_F(MovingLoop, FliesWithSmallerFramesAndRestsWithWholeOnes) {
         page.waitFor("state", [&](const Json& s) { return s["camera"]["to_world"] == toWorld; });
   };
   move();
-  page.say({{"do", "probe"}, {"pane", 0}, {"x", 200}, {"y", 100}});
+  for (int pane : {0, 1}) page.say({{"do", "probe"}, {"pane", pane}, {"x", 200}, {"y", 100}});
   // Without a hand that moves on, the frames have the whole size again.
-  const Json answer = page.waitFor("probe");
-  EXPECT_EQ(answer["epoch"], state["epoch"]);
+  for (int pane : {0, 1}) {
+    const Json answer = page.waitFor("probe", [&](const Json& a) { return a["pane"] == pane; });
+    EXPECT_EQ(answer["epoch"], state["epoch"]);
+  }
   page.waitForImage([&](const ShownImage& image) {
     return image.header.slot == 0 && image.header.epoch == state["epoch"] &&
            image.header.width == 256;
@@ -207,6 +209,20 @@ TEST_F(MovingLoop, PausedPanesShowAMovedCamera) {
   const Json numbers =
       page.waitFor("numbers", [](const Json& n) { return n["reference"]["spp"] >= 4; });
   EXPECT_LE(numbers["panes"][0]["age"], 1);
+  // A pane that comes into view later shows the new camera, too.
+  page.say({{"do", "look"}, {"on", true}, {"panes", {0}}});
+  page.waitFor("numbers", [](const Json& n) { return !n["panes"][1]["seen"].get<bool>(); });
+  toWorld[12] = toWorld[12].get<double>() + 0.1;
+  page.say({{"do", "camera"}, {"to_world", toWorld}});
+  const Json again =
+      page.waitFor("state", [&](const Json& s) { return s["camera"]["to_world"] == toWorld; });
+  page.waitForImage([&](const ShownImage& image) {
+    return image.header.slot == 0 && image.header.epoch == again["epoch"];
+  });
+  page.say({{"do", "look"}, {"on", true}, {"panes", {1}}});
+  page.waitForImage([&](const ShownImage& image) {
+    return image.header.slot == 1 && image.header.epoch == again["epoch"];
+  });
 }
 
 using RowsOfRuns = TemporaryFolder;

@@ -78,7 +78,7 @@ TEST_F(PagePanelsTest, AProbeFollowsAChange) {
   EXPECT_EQ(page(hint).get<std::string>().find("before the change"), std::string::npos);
   const Json first = page("return page.probe.answers.map(one => [one.frame, one.epoch]);");
   page(
-      "send({do: 'transport', name: 'max_bounces', value: 2});"
+      "send({do: 'light', name: 'all', factor: 0.5});"
       "await until(() => page.state.epoch > " +
       first[0][1].dump() + ");");
   EXPECT_NE(page(hint).get<std::string>().find("before the change"), std::string::npos)

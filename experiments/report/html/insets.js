@@ -139,7 +139,8 @@ class Insets {
     if (i === state.compare || !stage.hasCameraSize(image) || !areComparable(image, reference)) {
       return null;
     }
-    const key = `${pixels} ${state.compare} ${versionOf(image)} ${versionOf(reference)}`;
+    const key = [pixels, state.compare, versionOf(image), image.epoch, versionOf(reference),
+                 reference.epoch].join(' ');
     return this.errors.get(`${k} ${i}`, key, () => regionErrors(image, reference, pixels));
   }
 

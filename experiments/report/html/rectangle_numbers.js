@@ -63,6 +63,8 @@ function blockSums(image, reference, [x0, y0, x1, y1]) {
 
 // Numbers of one image, over the frames in which it is shown with one rectangle.
 const FRAME_BATCHES = 8, LEAST_FRAMES = 64;
+// Most entries that hold frames: beyond, each holds twice as many.
+const MOST_ENTRIES = 1024;
 
 class RectangleSeries {
   constructor() { this.key = null; }
@@ -70,20 +72,40 @@ class RectangleSeries {
   // Adds the image as it is. `key` names all that must not change within a series. `frame`: of the
   // image, undefined for one that has none; the same frame replaces itself.
   add(key, image, reference, rectangle, frame) {
-    if (this.key !== key) Object.assign(this, {key, frames: [], frame: undefined});
+    if (this.key !== key) {
+      Object.assign(this, {key, entries: [], perEntry: 1, newest: null, frame: undefined});
+    }
     const {side, count, sums} = blockSums(image, reference, rectangle);
     const numbers = NUMBER_KINDS.map(kind => ratioOfBlocks(sums[kind].above, sums[kind].below));
     this.blocks = {side, count, numbers};
     this.hasReference = reference !== null;
-    if (frame === undefined || frame === this.frame) this.frames.pop();
+    if (this.newest && frame !== undefined && frame !== this.frame) this.keep(this.newest);
     this.frame = frame;
-    this.frames.push(numbers.map(({value}) => value));
+    this.newest = numbers.map(({value}) => value);
+  }
+
+  // Adds a frame to the entries: means over `perEntry` frames each, the last one of fewer.
+  keep(values) {
+    const last = this.entries[this.entries.length - 1];
+    if (last && last.n < this.perEntry) {
+      ++last.n;
+      last.values = last.values.map((value, k) => value + (values[k] - value) / last.n);
+      return;
+    }
+    this.entries.push({n: 1, values});
+    if (this.entries.length < MOST_ENTRIES) return;
+    const {entries} = this;
+    this.perEntry *= 2;
+    this.entries = entries.filter((_, i) => i % 2 === 0).map((one, i) => {
+      const other = entries[2 * i + 1], n = one.n + other.n;
+      return {n, values: one.values.map((value, k) => (one.n * value + other.n * other.values[k]) / n)};
+    });
   }
 
   // Returns {text, numbers: {kind: {value, lo, hi}}}: of the frames if there are several, else of
   // the image's blocks.
   result() {
-    const n = this.frames.length, named = numbers => Object.fromEntries(
+    const n = this.count, named = numbers => Object.fromEntries(
         NUMBER_KINDS.map((kind, k) => [kind, numbers[k]]));
     if (n < 2) {
       const {side, count, numbers} = this.blocks;
@@ -95,13 +117,17 @@ class RectangleSeries {
     return {text, numbers: named(NUMBER_KINDS.map((_, k) => this.overFrames(k)))};
   }
 
+  get count() { return this.entries.reduce((all, {n}) => all + n, 1); }
+
   overFrames(k) {
-    const n = this.frames.length, values = this.frames.map(one => one[k]);
-    const mean = list => list.reduce((all, one) => all + one, 0) / list.length;
-    const value = mean(values);
-    if (n < LEAST_FRAMES) return {value, lo: NaN, hi: NaN};
-    const batches = Array.from({length: FRAME_BATCHES}, (_, b) => mean(values.slice(
-        Math.floor(b * n / FRAME_BATCHES), Math.floor((b + 1) * n / FRAME_BATCHES))));
+    const all = [...this.entries, {n: 1, values: this.newest}];
+    const mean = list => list.reduce((sum, {n, values}) => sum + n * values[k], 0) /
+        list.reduce((sum, {n}) => sum + n, 0);
+    const value = mean(all);
+    if (this.count < LEAST_FRAMES) return {value, lo: NaN, hi: NaN};
+    const batches = Array.from({length: FRAME_BATCHES}, (_, b) => mean(all.slice(
+        Math.floor(b * all.length / FRAME_BATCHES),
+        Math.floor((b + 1) * all.length / FRAME_BATCHES))));
     const {lo, hi, value: middle} = ratioOfBlocks(batches, batches.map(() => 1));
     return {value, lo: value + lo - middle, hi: value + hi - middle};
   }

@@ -4,7 +4,7 @@ class RectangleTable {
     this.viewer = viewer;
     this.due = new AtMost(TOOL_INTERVAL_MS, () => this.update());
     this.series = [];
-    this.begun = new Map();
+    this.begun = new WeakMap();
     this.size = make('b', {});
     this.crop = make('code', {});
     this.body = make('tbody', {});
@@ -43,6 +43,7 @@ class RectangleTable {
     const frame = image.role === 'reference' ? undefined : image.frame;
     this.series[i].add(key, image, reference, rectangle, frame);
     this.series[i].version = versionOf(image);
+    this.series[i].against = versionOf(images[compare]);
   }
 
   // Returns the frames of a converging reference when the series began: one that has twice as many
@@ -71,7 +72,9 @@ class RectangleTable {
     this.key = key;
     images.forEach((image, i) => {
       const series = this.series[i];
-      if (!series || this.subject !== subject || series.version !== versionOf(image)) this.note(i);
+      const isNoted = series && this.subject === subject && series.version === versionOf(image) &&
+          series.against === versionOf(images[state.compare]);
+      if (!isNoted) this.note(i);
     });
     this.subject = subject;
     this.show();

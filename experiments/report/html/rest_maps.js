@@ -111,7 +111,7 @@ class RestMaps {
     for (const end = performance.now() + SLICE_MS; performance.now() < end;) {
       const image = this.images[round.at];
       const isGiven = round.steps && versionOf(image) === round.version &&
-          areComparable(image, round.reference);
+          this.isAgainst(image, round);
       if (!isGiven && !this.beginNext(round)) return false;
       const {value, done} = round.steps.next();
       if (done) {
@@ -128,6 +128,12 @@ class RestMaps {
     return true;
   }
 
+  // The reference of a round is a copy: the picture may have changed since.
+  isAgainst(image, {compare, reference}) {
+    return areComparable(image, reference) &&
+        this.images[compare].pictureEpoch === reference.pictureEpoch;
+  }
+
   // Takes the next image of the queue that can be compared; returns false if there is none.
   beginNext(round) {
     const {queue, reference} = round;
@@ -135,7 +141,7 @@ class RestMaps {
     round.at = -1;
     while (queue.length && !round.steps) {
       const i = queue.shift(), image = this.images[i];
-      if (!areComparable(image, reference)) continue;
+      if (!this.isAgainst(image, round)) continue;
       const steps = ERRORS[round.kind].steps(image, reference);
       const version = versionOf(image), {epoch} = image;
       Object.assign(round, {at: i, version, epoch, share: 0, steps});

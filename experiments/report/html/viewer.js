@@ -6,7 +6,7 @@ class Viewer {
   // `data` as in the report; `images`: {name, role, width, height, data, nonfinite, version}. On a
   // live page `data` may also have `room()`: height of the stage in CSS pixels, which is then
   // filled; `pointer` (pointer.js); `idle()`: the status line while the pointer is outside;
-  // `arranged(images)`: called with the images in view; `notice(text)`: says it; `link()` returns
+  // `arranged(images)`: called with the images in view or compared with; `notice(text)`: says it; `link()` returns
   // the address of what is shown.
   constructor(root, data, images) {
     // `pointer`: position in the stage in CSS pixels, or null; `pixel` and `overView`: pixel and
@@ -140,7 +140,9 @@ class Viewer {
     this.stage.arrange(this.state, this.room(width));
     const {error, compare, insets} = this.state;
     const inView = this.stage.views.map(view => view.image);
-    if (this.data.arranged) this.data.arranged(insets.length ? [...this.images.keys()] : inView);
+    const isCompared = error !== 'none' || this.state.rectangle || this.state.histogram;
+    const used = isCompared ? [...new Set([...inView, compare])] : inView;
+    if (this.data.arranged) this.data.arranged(insets.length ? [...this.images.keys()] : used);
     this.painter.rest.want(isRestError(error) ? error : null, compare, inView);
     const hit = this.pointer && this.stage.hit(...this.pointer);
     this.pixel = hit ? hit.pixel : null;

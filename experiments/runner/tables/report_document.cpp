@@ -342,7 +342,8 @@ Json blockDocument(const Suite& suite, const std::vector<MethodSummary>& rows, f
   if (rows.front().temporal && isStill) plots.push_back(correlations(rows));
   // Name the reference in each plot, which may be used outside the report.
   for (Json& plot : plots) {
-    plot["x"]["note"] = "reference: " + originOf(block.reference);
+    const std::string own = plot["x"].value("note", "");
+    plot["x"]["note"] = own + (own.empty() ? "" : "; ") + "reference: " + originOf(block.reference);
   }
   document["plots"] = std::move(plots);
   if (suite.timing) document["bars"] = barsOf(rows);

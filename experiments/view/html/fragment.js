@@ -92,7 +92,8 @@ function commandsTowards(kept, state, settings) {
     if (wanted !== factor) commands.push({do: 'light', name, factor: wanted});
   }
   if (kept.camera && differs(kept.camera, state.camera)) {
-    commands.push({do: 'camera', ...kept.camera});
+    const {to_world, yfov} = kept.camera;
+    commands.push({do: 'camera', to_world, yfov});
   }
   if (typeof kept.paused === 'boolean' && kept.paused !== state.paused) {
     commands.push({do: 'pause', on: kept.paused});

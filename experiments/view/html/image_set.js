@@ -25,7 +25,8 @@ function replaceImages(viewer, images) {
     const at = images.findIndex(one => one.name === viewer.images[i].name);
     return at < 0 ? otherwise : at;
   };
-  const chosen = {current: found(state.current, 0), compare: found(state.compare, last)};
+  const chosen = {current: found(state.current, 0), compare: found(state.compare, last),
+                  left: state.left < 0 ? -1 : found(state.left, -1)};
   viewer.images.splice(0, viewer.images.length, ...images);
   viewer.painter.forget();
   viewer.list.build();

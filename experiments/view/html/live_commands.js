@@ -29,7 +29,7 @@ function makeLiveCommands(page) {
   const send = command => () => page.session.send(command);
   const isOn = () => page.camera.isOn;
   // True if the arrow keys turn the camera.
-  const isTurning = () => isOn() || page.camera.isOrbit;
+  const isTurning = viewer => !viewer.rectangle.isOn && (isOn() || page.camera.isOrbit);
   const panes = page.hello.has_scene ? page.state.panes : [];
   const session = 'Session', camera = 'Camera', fly = 'Camera mode (c)';
   const commands = [
@@ -93,7 +93,7 @@ function makeLiveCommands(page) {
     {id: 'picture', keys: ['X'], group: session,
      title: 'save the chosen image as it was rendered, an EXR', run: () => page.savePicture()},
     {id: 'crop', keys: ['m'], group: session,
-     title: 'the insets, or what is shown, as crops for restlab figure', run: () => giveCrop(page)},
+     title: 'the insets, the rectangle, or what is shown, as crops for restlab figure', run: () => giveCrop(page)},
     {id: 'measure', keys: ['M'], group: session, title: 'measure the session by restlab run',
      when: () => !page.measurement.isRunning, run: () => page.measure()},
     {id: 'cancel-measure', keys: [], group: session, title: 'end what is measured',

@@ -84,7 +84,7 @@ class LivePage {
 
   // Reloads the page if the program now has another scene: nothing shown here would be true.
   greet(hello) {
-    if (document.hidden) this.look();
+    if (document.hidden || this.seen) this.look();  // a new connection knows nothing of it
     if (this.hello && this.hello.scene.name !== hello.scene.name) location.reload();
     this.hello = hello;
     this.warnings.greet(hello);
@@ -102,6 +102,9 @@ class LivePage {
     } else if (isOfFiles && (state.epoch !== this.viewer.data.epoch || areOthers())) {
       replaceImages(this.viewer, imagesOf(state, this.hello));
       this.viewer.setExposure(state.exposure);
+      // A link was applied to the images of the table before.
+      if (this.wanted && this.wanted.table === state.table) this.applyView(this.wanted.view);
+      this.wanted = null;
     }
     this.viewer.data.epoch = state.epoch;
     this.viewer.images.forEach((image, i) => {
@@ -196,6 +199,7 @@ class LivePage {
     if (this.kept) this.applyView(this.kept.view);
     else if (location.hash.length > 1) this.refuseAddress();
     if (this.kept && !isReload) {
+      this.wanted = this.kept;
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
     // Apply an address that is pasted later, too.
@@ -206,6 +210,7 @@ class LivePage {
         return;
       }
       this.applyView(kept.view);
+      this.wanted = kept;
       for (const command of commandsTowards(kept, this.state, settings)) this.session.send(command);
     });
     setInterval(() => this.link(), FRAGMENT_INTERVAL_MS);

@@ -137,12 +137,12 @@ class ProbePanel {
   // Probes again while frames go on. `numbers`: the program's newest message.
   follow(numbers) {
     if (!this.pixel || this.hold.checked || !numbers) return;
-    const {epoch, age, panes} = numbers;
-    if (epoch !== this.page.state.epoch || !age) return;
+    const {epoch, panes} = numbers;
+    if (epoch !== this.page.state.epoch) return;
     const isWaiting = pane => this.asked[pane] > performance.now() - PROBE_TIMEOUT_MS;
     const old = this.answers.filter(one => one && showsMethod(panes[one.pane]) &&
-        panes[one.pane].frame > 0 && !isWaiting(one.pane) &&
-        (one.epoch !== epoch || one.frame !== panes[one.pane].frame));
+        panes[one.pane].age > 0 && !panes[one.pane].moving && !isWaiting(one.pane) &&
+        (this.isOld(one) || one.frame !== panes[one.pane].frame));
     if (old.length && this.due.isDue()) for (const {pane} of old) this.send(pane);
   }
 
@@ -172,15 +172,21 @@ class ProbePanel {
     this.show();
   }
 
+  // True if the pane or the picture was changed since the answer's frame.
+  isOld({pane, epoch}) {
+    const {panes, picture_epoch} = this.page.state;
+    return epoch < Math.max(panes[pane].epoch, picture_epoch);
+  }
+
   // Says of which frames the values are, and marks those that were probed before the last change.
   showAge() {
     if (!this.answers.some(Boolean)) return this.invite();
-    const {epoch} = this.page.state, frame = this.hold.checked ? 'held at frame' : 'frame';
+    const frame = this.hold.checked ? 'held at frame' : 'frame';
     setText(this.hint, this.texts.map(([one, text]) => `${PANE_NAMES[one.pane]}: ${frame} ${
-        one.frame}, ${text}${one.epoch === epoch ? '' : ', before the change'}`).join('; '));
-    for (const [{pane, epoch: probed}] of this.texts)
-      if (probed !== epoch) this.page.viewer.setImage(pane, {path: null});
-    this.results.classList.toggle('old', this.texts.some(([one]) => one.epoch !== epoch));
+        one.frame}, ${text}${this.isOld(one) ? ', before the change' : ''}`).join('; '));
+    for (const [one] of this.texts)
+      if (this.isOld(one)) this.page.viewer.setImage(one.pane, {path: null});
+    this.results.classList.toggle('old', this.texts.some(([one]) => this.isOld(one)));
   }
 
   show() {
