@@ -241,11 +241,11 @@ TEST_F(RowsOfRuns, AreMeansOfWholeLines) {
   MeasuredRows rows;
   rows.follow(file);
   EXPECT_FALSE(rows.poll()) << "its lines are of an earlier run";
-  add(line("path", 1.0, 8.0) + "no JSON\n" + R"({"kind": "checkpoint", "method": "x", "mse": 3})" +
-      "\n" + line("gi", 0.5, 9.0));
-  EXPECT_TRUE(rows.poll());
   const std::string next = line("path", 3.0, 10.0);
-  add(next.substr(0, 20));
+  add(line("path", 1.0, 8.0) + "no JSON\n" + R"({"kind": "checkpoint", "method": "x", "mse": 3})" +
+      "\n" + line("gi", 0.5, 9.0) + next.substr(0, 20));
+  EXPECT_TRUE(rows.poll());
+  EXPECT_EQ(rows.rows().at(0).runs, 1u);
   EXPECT_FALSE(rows.poll()) << "half a line";
   add(next.substr(20));
   EXPECT_TRUE(rows.poll());
