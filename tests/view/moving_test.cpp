@@ -196,6 +196,14 @@ TEST_F(MovingLoop, FliesWithSmallerFramesAndRestsWithWholeOnes) {
 TEST_F(MovingLoop, PausedPanesShowAMovedCamera) {
   start();
   Page page(url());
+  // The image may have come before the state.
+  const auto expectImage = [&](uint32_t slot, uint64_t epoch) {
+    const auto held = page.images().find(slot);
+    if (held != page.images().end() && held->second.header.epoch == epoch) return;
+    page.waitForImage([&](const ShownImage& image) {
+      return image.header.slot == slot && image.header.epoch == epoch;
+    });
+  };
   page.say({{"do", "pause"}, {"on", true}});
   const Json state = page.waitFor("state", [](const Json& s) { return s["paused"]; });
   Json toWorld = state["camera"]["to_world"];
@@ -203,9 +211,7 @@ TEST_F(MovingLoop, PausedPanesShowAMovedCamera) {
   page.say({{"do", "camera"}, {"to_world", toWorld}});
   const Json moved =
       page.waitFor("state", [&](const Json& s) { return s["camera"]["to_world"] == toWorld; });
-  page.waitForImage([&](const ShownImage& image) {
-    return image.header.slot == 1 && image.header.epoch == moved["epoch"];
-  });
+  expectImage(1, moved["epoch"]);
   const Json numbers =
       page.waitFor("numbers", [](const Json& n) { return n["reference"]["spp"] >= 4; });
   EXPECT_LE(numbers["panes"][0]["age"], 1);
@@ -216,13 +222,9 @@ TEST_F(MovingLoop, PausedPanesShowAMovedCamera) {
   page.say({{"do", "camera"}, {"to_world", toWorld}});
   const Json again =
       page.waitFor("state", [&](const Json& s) { return s["camera"]["to_world"] == toWorld; });
-  page.waitForImage([&](const ShownImage& image) {
-    return image.header.slot == 0 && image.header.epoch == again["epoch"];
-  });
+  expectImage(0, again["epoch"]);
   page.say({{"do", "look"}, {"on", true}, {"panes", {1}}});
-  page.waitForImage([&](const ShownImage& image) {
-    return image.header.slot == 1 && image.header.epoch == again["epoch"];
-  });
+  expectImage(1, again["epoch"]);
 }
 
 using RowsOfRuns = TemporaryFolder;
