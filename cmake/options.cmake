@@ -25,6 +25,10 @@ endif()
 if(RESTLAB_WERROR)
   target_compile_options(rl_options INTERFACE -Werror)
 endif()
+# Everything may become part of a shared library (librestlab, the Python module); its own functions are
+# still called and inlined as in a program.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+target_compile_options(rl_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 # Same seed, same image: no contraction, no fast-math; errno and traps are never read.
 target_compile_options(rl_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(RESTLAB_SANITIZE)
