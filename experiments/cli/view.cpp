@@ -16,6 +16,7 @@
 #include "core/frame/method_settings.h"
 #include "core/image/io/atomic_file.h"
 #include "core/scene/compiled/compiled_scene.h"
+#include "core/scene/material_notes.h"
 #include "experiments/cli/options.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/files.h"
@@ -202,6 +203,17 @@ void writeCapture(const ViewStart& start, const ViewOptions& options) {
                       figure.height, options.captured.frames));
 }
 
+// Returns the lines of the start that a page shows: warnings, and notes on the scene.
+std::vector<std::string> toldAtStart(const PreparedScene& prepared) {
+  std::vector<std::string> lines = keptWarnings();
+  if (!prepared.scene) return lines;
+  const Scene& scene = prepared.scene->source();
+  for (const std::vector<std::string>& notes : {scene.notes, materialNotes(scene)})
+    lines.insert(lines.end(), notes.begin(), notes.end());
+  if (lines.size() > kKeptWarnings) lines.resize(kKeptWarnings);
+  return lines;
+}
+
 ExitCode view(const CLI::App& verb, ViewOptions options) {
   if (options.scene.request.scene.empty()) options.scene.request.scene = kDefaultScene;
   std::optional<TevAddress> tev;
@@ -229,7 +241,7 @@ ExitCode view(const CLI::App& verb, ViewOptions options) {
                 {start.request,
                  threads > 0 ? threads : int(std::thread::hardware_concurrency()),
                  {},
-                 keptWarnings()},
+                 toldAtStart(start.prepared)},
                 options.server, ".", tev);
   print("{}\n", loop.url());
   std::fflush(stdout);

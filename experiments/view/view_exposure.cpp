@@ -17,7 +17,10 @@ double exposureOf(const LiveView& view) {
 
 bool isNothingLit(const LiveView& view) {
   std::vector<const Image*> pictures;
-  for (size_t i = 0; i < view.panes(); ++i) pictures.push_back(view.picture(i));
+  for (size_t i = 0; i < view.panes(); ++i) {
+    // A pane that renders, and that no page shows, has the picture of an earlier camera.
+    if (view.isSeen(i) || !view.renders(i)) pictures.push_back(view.picture(i));
+  }
   if (view.reference().hasImage()) pictures.push_back(&view.reference().mean());
   std::erase(pictures, nullptr);
   return !pictures.empty() && std::all_of(pictures.begin(), pictures.end(), [](const Image* one) {

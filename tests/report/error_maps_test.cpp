@@ -250,6 +250,9 @@ TEST_F(ErrorMapsTest, InsetsHaveTheirOwnErrors) {
   click(".inset button");
   EXPECT_EQ(texts(".inset").size(), 2u);
   EXPECT_NE(texts(".inset code")[0], "37,8,8,5") << "the first one was taken away";
+  page("viewer.set({rectangle: [5, 3, 15, 9]});");
+  press("I", "KeyI", true);
+  EXPECT_EQ(texts(".inset code")[2], "5,3,10,6") << "the chosen rectangle";
 }
 
 }  // namespace

@@ -186,8 +186,9 @@ for (let i = 0; i < 3; ++i) {
   effects[`compare-${i + 1}`] = (b, a) => b.compare !== i && a.compare === i;
 }
 for (const one of page.commands) {
-  const [, kind, of] = /^(fly|tab)-(.*)$/.exec(one.id) || [];
+  const [, kind, of] = /^(fly|tab|error)-(.*)$/.exec(one.id) || [];
   if (kind === 'fly') effects[one.id] = (b, a) => a.held === of && a.pose !== b.pose;
+  if (kind === 'error') effects[one.id] = (b, a) => a.error === of;
   if (kind === 'tab') effects[one.id] = (b, a) => b.tab !== of && a.tab === of;
 }
 tools.known = Object.keys(effects);
@@ -298,6 +299,13 @@ TEST_F(PageCommandsTest, ArePickedInThePaletteByTyping) {
   EXPECT_EQ(page("return page.palette.found.map(one => one.id);"), (Json{"tone"}));
   browser_->press("Enter", "Enter");
   EXPECT_EQ(page("return [viewer.state.tone, tools.ran];"), (Json{"false", {"palette", "tone"}}));
+  press("Ctrl+k");
+  page(
+      "const {input} = page.palette; input.value = 'confidence_cap of a'; "
+      "input.dispatchEvent(new InputEvent('input'));");
+  browser_->press("Enter", "Enter");
+  EXPECT_EQ(page("return document.activeElement.closest('.parameter').dataset.parameter;"),
+            "confidence_cap");
   press("Ctrl+k");
   press("ArrowDown");
   press("Escape");

@@ -77,14 +77,17 @@ TEST_F(PageOpenTest, ALinkShowsTheSameAgain) {
                 rectangle: [3, 4, 20, 30]});
     viewer.zoom(4);
     viewer.setExposure(0.25);
+    send({do: 'adaptive', on: false});
+    await until(() => !page.state.adaptive);
     window.kept = new URL(viewer.data.link()).hash;
     viewer.set({mode: 'side', current: 0, channel: 'rgb', stops: 0, histogram: false,
                 rectangle: null});
     viewer.fit();
     viewer.setExposure(1);
-    await until(() => location.hash !== kept);
+    send({do: 'adaptive', on: true});
+    await until(() => page.state.adaptive && location.hash !== kept);
     location.hash = kept;
-    await until(() => viewer.state.mode === 'single');)");
+    await until(() => viewer.state.mode === 'single' && !page.state.adaptive);)");
   EXPECT_EQ(page("const {current, channel, stops, histogram, rectangle} = viewer.state; return "
                  "[current, channel, stops, histogram, rectangle, viewer.painter.exposure, "
                  "new URL(viewer.data.link()).hash === kept];"),

@@ -47,7 +47,7 @@ class PagePixelsTest : public LivePageTest {
           colours.push(data[at], data[at + 1], data[at + 2]);
         }
       }
-      return {colours, exposure: page.hello.exposure, images: images.map(i => Array.from(i.data)),
+      return {colours, exposure: viewer.painter.exposure, images: images.map(i => Array.from(i.data)),
               left: (width / 2 + (viewer.state.wipe - 0.5) * canvas.width / scale)};)");
     colours_ = read["colours"].get<std::vector<int>>();
     images_ = read["images"].get<std::vector<std::vector<double>>>();

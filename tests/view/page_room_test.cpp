@@ -113,6 +113,39 @@ TEST_F(PageRoomTest, OfMethodsWithLongNamesAndNumbers) {
   expectRoom();
 }
 
+// The picture stays large, and the box of numbers as high as it is, whatever stands below.
+TEST_F(PageRoomTest, ThePictureStaysInSight) {
+  open();
+  page("send({do: 'pause', on: true}); await until(() => page.state.paused);");
+  const Json shares = page(R"(
+    viewer.set({histogram: true, rectangle: [1, 1, 9, 9],
+                insets: [[0, 0, 0.5, 0.5], [0.5, 0.5, 0.2, 0.2]]});
+    await frame(); await frame();
+    const column = viewer.root, stage = document.querySelector('.stage');
+    const share = () => {
+      const box = stage.getBoundingClientRect();
+      return [box.height > 0.45 * column.clientHeight,
+              box.top >= column.getBoundingClientRect().top - 1 && box.bottom <= innerHeight];
+    };
+    column.scrollTop = 0;
+    const above = share();
+    column.scrollTop = 1e6;
+    await frame();
+    return [above, share(), column.scrollTop > 0];)");
+  EXPECT_EQ(shares, (Json{{true, true}, {true, true}, true}));
+  const Json heights = page(R"(
+    const box = document.querySelector('.numbers-box'), {numbers} = page;
+    const last = structuredClone(page.last), heights = [];
+    for (const [health, busy] of [[{}, 0.5], [{dropped_weights: 12, non_finite: 3, a: 1, b: 2, c: 3,
+                                               a_longer_name: 123456}, 9]]) {
+      for (const pane of last.panes) pane.health = health;
+      numbers.show({...last, busy});
+      heights.push(box.scrollHeight);
+    }
+    return heights;)");
+  EXPECT_EQ(heights[0], heights[1]);
+}
+
 // Picture and panel are seen together also where the window is narrower still.
 TEST_F(PageRoomTest, APhoneHasThePanelsBelow) {
   open();

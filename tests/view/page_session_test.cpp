@@ -90,10 +90,41 @@ TEST_F(PageSessionTest, RefusalsAreSaidAndTheFieldShowsWhatIs) {
   page("await until(() => document.querySelector('.message.error'));");
   EXPECT_NE(text(".message.error").find("between"), std::string::npos) << text(".message.error");
   EXPECT_EQ(cap(), before);
+  EXPECT_EQ(page(R"(
+    const field = document.querySelector('[data-parameter=confidence_cap] input[type=number]');
+    const shown = field.value;
+    field.value = '';
+    field.dispatchEvent(new Event('change'));
+    return [shown, field.value];)"),
+            (Json{before[0].dump(), before[0].dump()}))
+      << "at once, while it is edited";
   page("document.activeElement.blur();");
   EXPECT_EQ(page("return document.querySelector('[data-parameter=confidence_cap] "
                  "input[type=number]').value;"),
             before[0].dump());
+}
+
+// A layer's numbers stand where its colours do, and in the line of the pointer's pixel.
+TEST_F(PageSessionTest, ALayerShowsItsNumbers) {
+  page(R"(
+    send({do: 'layer', pane: 0, name: 'confidence'});
+    await until(() => viewer.images[0].overlay && viewer.images[0].overlay.data);
+    send({do: 'pause', on: true});
+    await until(() => page.state.paused);)");
+  const Json shown = page(R"(
+    viewer.set({mode: 'single', current: 0, opacity: 0.7});
+    viewer.pointer = [viewer.stage.width / 2, viewer.stage.height / 2];
+    viewer.draw();
+    const view = viewer.stage.views[0], {painter} = viewer, {data} = viewer.images[0].overlay;
+    const at = viewer.camera.indexIn(viewer.images[0], viewer.pixel), value = data[at];
+    const seen = painter.texts(view, at), text = String(Number(value.toPrecision(3)));
+    viewer.set({opacity: 0.3});
+    return [value > 0, seen, text, painter.texts(view, at).length,
+            viewer.status.textContent.includes(`confidence: ${text}`)];)");
+  EXPECT_EQ(shown[0], true);
+  EXPECT_EQ(shown[1], (Json{shown[2]}));
+  EXPECT_EQ(shown[3], 3) << "R, G, B of the image below a faint layer";
+  EXPECT_EQ(shown[4], true);
 }
 
 TEST_F(PageSessionTest, ClickProbesThePixel) {

@@ -15,20 +15,31 @@ double percentileOf(std::vector<double> values, double fraction) {
   return percentile(values, fraction);
 }
 
-using PageSpeedTest = LivePageTest;
+class PageSpeedTest : public LivePageTest {
+ protected:
+  // Panes of door-ajar on two threads: restir_gi, and path with that denoiser.
+  std::vector<SessionConfig> panesOf(uint32_t width, uint32_t height, const std::string& denoiser) {
+    facts_.request.scene = "door-ajar";
+    std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", denoiser)};
+    for (SessionConfig& pane : panes) {
+      pane.width = width;
+      pane.height = height;
+      pane.maxBounces = 8;
+      pane.threads = 2;
+    }
+    return panes;
+  }
+
+  void openPanes(const std::vector<SessionConfig>& panes) {
+    serve(panes);
+    browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
+    waitUntilShown(*browser_);
+  }
+};
 
 // Calls what pointer events call, once per browser frame, for three seconds each.
 TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
-  facts_.request.scene = "door-ajar";
-  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path")};
-  for (SessionConfig& pane : panes) {
-    pane.width = 1280;
-    pane.height = 720;
-    pane.threads = 2;
-  }
-  serve(panes);
-  browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
-  waitUntilShown(*browser_);
+  openPanes(panesOf(1280, 720, "none"));
   pause();
   const Json read = page(R"(
     const {canvas} = viewer, result = {width: canvas.width, height: canvas.height};
@@ -77,17 +88,7 @@ TEST_F(PageSpeedTest, NightlyPanZoomAndWipe) {
 // Flies for five seconds: pictures of pane A a second, and the time from a key to the first picture
 // of another view, with smaller frames and with whole ones.
 TEST_F(PageSpeedTest, NightlyFlying) {
-  facts_.request.scene = "door-ajar";
-  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", "accumulate")};
-  for (SessionConfig& pane : panes) {
-    pane.width = 320;
-    pane.height = 180;
-    pane.maxBounces = 8;
-    pane.threads = 2;
-  }
-  serve(panes);
-  browser_->evaluate("void (location.href = " + Json(url()).dump() + ")");
-  waitUntilShown(*browser_);
+  openPanes(panesOf(320, 180, "accumulate"));
   double perSecond[2] = {};
   for (const char* mode : {"side", "wipe"}) {
     for (const bool isAdaptive : {false, true}) {
@@ -140,15 +141,8 @@ TEST_F(PageSpeedTest, NightlyFlying) {
 // turn.
 TEST_F(PageSpeedTest, NightlyBeingWatched) {
   constexpr int kRounds = 6, kWarmUp = 10, kFrames = 40;
-  facts_.request.scene = "door-ajar";
+  const std::vector<SessionConfig> panes = panesOf(320, 180, "accumulate");
   const PreparedScene prepared = prepareScene(facts_.request);
-  std::vector<SessionConfig> panes = {smallPane("restir_gi"), smallPane("path", "accumulate")};
-  for (SessionConfig& pane : panes) {
-    pane.width = 320;
-    pane.height = 180;
-    pane.maxBounces = 8;
-    pane.threads = 2;
-  }
   std::vector<double> ratios[2];
   double bytes = 0.0, seconds = 0.0;
   for (int round = 0; round < kRounds; ++round) {

@@ -27,5 +27,18 @@ TEST(ViewExposure, OfTheFirstFrameIsNearThatOfTheReport) {
   EXPECT_NEAR(std::log2(first / report), 0.0, 0.5);
 }
 
+// A pane that no page shows keeps the picture of an earlier camera, which says nothing.
+TEST(ViewExposure, NothingIsLitThoughAHiddenPaneWas) {
+  LiveView view(cornellBox(), {smallPane("path"), smallPane("path")}, {});
+  view.renderFrames();
+  EXPECT_FALSE(isNothingLit(view));
+  view.setSeen(1, false);
+  MoveCamera away;
+  away.toWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1000, 1};  // far behind, looking away
+  view.apply(away);
+  view.renderFrames();
+  EXPECT_TRUE(isNothingLit(view));
+}
+
 }  // namespace
 }  // namespace restlab::view_test

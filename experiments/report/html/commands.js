@@ -26,6 +26,15 @@ function imageCommands() {
   return commands;
 }
 
+// Commands of the palette that choose an error view by its name.
+function errorCommands() {
+  return ERROR_ORDER.map(kind => ({
+    id: `error-${kind}`, keys: [], group: 'Errors and colours', row: null,
+    title: kind === 'none' ? 'no errors: the images' : `errors: ${ERRORS[kind].title}`,
+    run: viewer => viewer.set({error: kind})
+  }));
+}
+
 const PAN_STEP = 60;  // CSS pixels
 
 const VIEWER_COMMANDS = [
@@ -73,6 +82,7 @@ const VIEWER_COMMANDS = [
    run: viewer => viewer.stepError(1)},
   {id: 'previous-error', keys: ['N'], group: 'Errors and colours', title: 'previous error view',
    run: viewer => viewer.stepError(-1)},
+  ...errorCommands(),
   {id: 'log', keys: ['l'], group: 'Errors and colours', title: 'linear or logarithmic error scale',
    when: viewer => canBeLog(viewer.state.error),
    run: viewer => viewer.toggleLog()},

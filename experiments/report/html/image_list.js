@@ -62,7 +62,8 @@ class ImageList {
     const cells = this.images.map((image, i) => {
       const plane = kind !== 'none' && i !== state.compare &&
           areComparable(image, this.images[state.compare]) ? painter.plane(kind, i) : null;
-      const at = pixel && image.data ? this.camera.indexIn(image, pixel) : -1;
+      const isThere = pixel && image.data && !isOldImage(image);
+      const at = isThere ? this.camera.indexIn(image, pixel) : -1;
       return [plane ? plane.mean : null,
               ...[0, 1, 2].map(c => at < 0 ? null : image.data[3 * at + c]),
               plane && at >= 0 ? plane.values[at] : null];

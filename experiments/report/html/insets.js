@@ -6,6 +6,8 @@ const MOST_INSETS = 4;
 const INSET_COLOURS = ['#ff5a4f', '#39c0ff', '#ffd23f', '#6be675'];
 // Largest height of a crop in CSS pixels, and the size of one of a whole picture, as a share of it.
 const INSET_HEIGHT = 132, INSET_SHARE = 1 / 8;
+// Smallest width of a crop in CSS pixels: its errors have room; a row that is wider scrolls.
+const INSET_WIDTH = 84;
 // Border of the crops and gap between two insets in one row, as in style.css.
 const INSET_BORDER = 3, INSET_GAP = 16;
 
@@ -34,10 +36,14 @@ function validInsets(values) {
   return Array.isArray(values) ? values.filter(isInset).slice(0, MOST_INSETS) : [];
 }
 
-// Returns the rectangle that a new inset takes: the part of the picture that a view shows; of a
-// whole picture the surroundings of the pixel under the pointer, or of the middle.
+// Returns the rectangle that a new inset takes: the chosen one; or else the part of the picture that
+// a view shows; of a whole picture the surroundings of the pixel under the pointer, or of the middle.
 function insetHere(viewer) {
-  const {camera, stage, pixel} = viewer, {width, height} = camera;
+  const {camera, stage, pixel} = viewer, {width, height} = camera, chosen = viewer.state.rectangle;
+  if (chosen) {
+    const [left, top, right, bottom] = chosen;
+    return insetShares([left, top, right - left, bottom - top], camera);
+  }
   const [x0, y0, x1, y1] = shownPixels(camera, stage.views[0], width, height);
   if (x1 - x0 < width || y1 - y0 < height) {
     return insetShares([x0, y0, x1 - x0, y1 - y0], camera);
@@ -111,7 +117,7 @@ class Insets {
     const columns = state.insets.length > 1 && n < 5 ? 2 : 1;
     const across = (this.element.clientWidth - INSET_GAP * (columns - 1)) / columns;
     const room = across - 2 * INSET_BORDER - VIEW_GAP * (n - 1);
-    const cell = Math.max(24, Math.floor(Math.min(room / n, INSET_HEIGHT * width / height)));
+    const cell = Math.max(INSET_WIDTH, Math.floor(Math.min(room / n, INSET_HEIGHT * width / height)));
     const scale = cell / width;
     Object.assign(stage.camera, {width: camera.width, height: camera.height, fitted: false, scale,
                                  x: x + width / 2, y: y + height / 2});

@@ -194,9 +194,24 @@ class Painter {
     });
   }
 
+  // Returns the numbers of a pixel in the layer over image i, as texts.
+  overlayTexts(i, pixel) {
+    const found = this.overlay(i);
+    if (!found) return [];
+    const {kind, values, components = 3} = found, isOne = kind === 'number' || kind === 'name';
+    const n = values.length === 3 * this.images[i].width * this.images[i].height ? 3 : 1;
+    const at = n * pixel;
+    return Array.from(values.subarray(at, at + (isOne ? 1 : components)), shortNumber);
+  }
+
+  // True if the layer over an image is seen rather than the image.
+  showsOverlay(view) { return this.state.opacity >= 0.5 && Boolean(this.overlay(view.image)); }
+
+  // Returns the numbers of a pixel, of what its colour shows.
   texts(view, i) {
     const {data} = this.images[view.image];
     if (!data) return [];
+    if (this.showsOverlay(view)) return this.overlayTexts(view.image, i);
     if (!this.isErrorShown(view)) {
       const isOne = this.state.channel !== 'rgb';
       return Array.from(this.channelOf(view.image).data.subarray(3 * i, 3 * i + (isOne ? 1 : 3)),
@@ -215,6 +230,10 @@ class Painter {
 
   pixelColour(view, i) {
     if (!this.images[view.image].data) return 0;
+    if (this.showsOverlay(view)) {
+      const {values, scale} = this.overlay(view.image);
+      if (scale) return scaledColour(values[i], scale);
+    }
     if (this.isErrorShown(view)) {
       const plane = this.plane(this.state.error, view.image);
       return plane ? scaledColour(plane.values[i], this.errorScale()) : 0;

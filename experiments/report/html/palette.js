@@ -25,9 +25,9 @@ function matchingCommands(commands, viewer, question) {
 }
 
 class Palette {
-  // `target` returns the viewer for a command.
-  constructor(commands, target) {
-    Object.assign(this, {commands, target, found: [], at: 0});
+  // `target` returns the viewer for a command, `more` commands that are there now.
+  constructor(commands, target, more = () => []) {
+    Object.assign(this, {commands, target, more, found: [], at: 0});
     this.input = make('input', {type: 'search', role: 'combobox', 'aria-expanded': 'true',
                                 'aria-controls': 'palette-list', 'aria-label': 'Search commands',
                                 placeholder: 'Search commands', autocomplete: 'off',
@@ -52,7 +52,8 @@ class Palette {
   }
 
   search() {
-    this.found = matchingCommands(this.commands, this.viewer, this.input.value);
+    const all = this.input.value ? [...this.commands, ...this.more()] : this.commands;
+    this.found = matchingCommands(all, this.viewer, this.input.value);
     this.list.replaceChildren(...this.found.map((command, i) => {
       const item = make('li', {id: `command-${command.id}`, role: 'option',
                                'data-command': command.id},

@@ -180,12 +180,12 @@ class Viewer {
     const key = JSON.stringify(tags);
     if (this.tagKey === key) return;
     this.tagKey = key;
-    this.tags.replaceChildren(...tags.map(({parts, ...attributes}) => {
+    this.tags.replaceChildren(...tags.map(({parts, short, ...attributes}) => {
       return make('span', {...attributes, title: parts.join('  ')}, parts.join('  '));
     }));
-    tags.forEach(({parts}, k) => {
+    tags.forEach(({parts, short}, k) => {
       const element = this.tags.children[k];
-      element.textContent = fittingLabel(parts, text => {
+      element.textContent = fittingLabel(parts, short, text => {
         element.textContent = text;
         return element.scrollWidth <= element.clientWidth;
       });
@@ -200,7 +200,7 @@ class Viewer {
     const side = view.clip && left > 0 ? `right:${this.frame.clientWidth - right}px`
                                        : `left:${left}px`;
     return {
-      parts: labelParts(this, view),
+      parts: labelParts(this, view), short: shortLabel(this, view),
       class: `tag${current ? ' current' : ''}${isNear ? ' faint' : ''}`,
       style: `top:${view.y}px;max-width:${Math.max(0, right - left)}px;${side}`
     };
@@ -217,12 +217,16 @@ class Viewer {
     const view = this.stage.views[this.overView] || this.stage.views[0];
     const values = image => {
       if (!image.data) return `   ${image.name}: nothing yet`;
+      if (isOldImage(image)) return `   ${image.name}: before the change`;
       const at = 3 * this.camera.indexIn(image, pixel);
       const numbers = Array.from(image.data.subarray(at, at + 3), exactFloat).join(' ');
       return `   ${image.name}: ${numbers}`;
     };
     const image = images[view.image];
     let text = `x ${pixel.x + this.data.x}  y ${pixel.y + this.data.y}${values(image)}`;
+    const layer = image.overlay && this.painter.overlayTexts(
+        view.image, this.camera.indexIn(image, pixel));
+    if (layer?.length) text += `   ${image.overlay.name}: ${layer.join(' ')}`;
     if (view.image !== state.compare) {
       text += values(images[state.compare]);
       if (view.isError) {

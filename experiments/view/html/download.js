@@ -36,7 +36,8 @@ function saveScreenshot(viewer, name, words) {
   for (const view of viewer.stage.views) {
     const [left, right] = view.clip || [view.x, view.x + view.width];
     const widthOf = text => context.measureText(text).width + 14;
-    const text = fittingLabel(labelParts(viewer, view), one => widthOf(one) <= right - left);
+    const text = fittingLabel(labelParts(viewer, view), shortLabel(viewer, view),
+                              one => widthOf(one) <= right - left);
     const width = widthOf(text);
     const x = view.clip && left > 0 ? right - width : left;
     context.fillStyle = 'rgba(0,0,0,0.62)';

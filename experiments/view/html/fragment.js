@@ -21,7 +21,8 @@ function stateForAddress(state, viewer, settings) {
   return {panes, materials, camera: state.camera, width: state.width, height: state.height,
           lights: Object.fromEntries(lights.map(({name, factor}) => [name, factor])),
           transport: Object.fromEntries(transport.map(({name, value}) => [name, value])),
-          table: state.table, paused: state.paused, view: viewState(viewer)};
+          table: state.table, paused: state.paused, adaptive: state.adaptive,
+          view: viewState(viewer)};
 }
 
 const fragmentOf = kept => `#${encodeURIComponent(JSON.stringify(kept))}`;
@@ -95,8 +96,9 @@ function commandsTowards(kept, state, settings) {
     const {to_world, yfov} = kept.camera;
     commands.push({do: 'camera', to_world, yfov});
   }
-  if (typeof kept.paused === 'boolean' && kept.paused !== state.paused) {
-    commands.push({do: 'pause', on: kept.paused});
+  for (const [name, command] of [['paused', 'pause'], ['adaptive', 'adaptive']]) {
+    if (typeof kept[name] !== 'boolean' || kept[name] === state[name]) continue;
+    commands.push({do: command, on: kept[name]});
   }
   return commands;
 }

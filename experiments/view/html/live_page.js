@@ -5,6 +5,8 @@
 const REFERENCE_SLOT = 64, LAYER_SLOTS = 128;
 // Milliseconds after which a pane that has left the view stops rendering.
 const HIDE_DELAY_MS = 700;
+// Samples of the reference with which its exposure is that of a converged one, nearly.
+const EXPOSED_SPP = 64;
 
 class LivePage {
   constructor() {
@@ -16,6 +18,7 @@ class LivePage {
     this.badge = make('p', {class: 'camera-badge', role: 'status', hidden: ''});
     this.left = make('main', {class: 'live-left'}, this.root);
     this.side = make('aside', {class: 'live-side', 'aria-label': 'Panels'});
+    this.side.addEventListener('refused', ({detail}) => this.messages.error(detail));
     this.handle = new SideHandle(this.side);
     startTheme();
     document.body.className = 'live';
@@ -182,7 +185,8 @@ class LivePage {
     this.header.fill();
     addKeys([this.viewer], this.commands);
     makeHelp(this.commands, LIVE_POINTER_HELP);
-    this.palette = new Palette(this.commands, () => this.viewer);
+    this.palette = new Palette(this.commands, () => this.viewer,
+                               () => this.methods.searchCommands?.() || []);
     for (const name of ['keydown', 'keyup']) {
       document.addEventListener(name, event => { this.camera.isFast = event.shiftKey; }, true);
     }
@@ -267,12 +271,22 @@ class LivePage {
     }});
   }
 
+  // Sets the exposure of the start once more: it was that of a reference with few samples.
+  exposeOnce({reference}) {
+    if (this.isExposed || !this.hello.has_scene || !reference || reference.spp < EXPOSED_SPP) return;
+    this.isExposed = true;
+    const source = exposureSource(this.viewer.images);
+    const isOfStart = this.viewer.painter.exposure === this.hello.exposure;
+    if (source && isOfStart) this.viewer.setExposure(autoExposure(source));
+  }
+
   showNumbers(numbers) {
     if (!this.viewer) return;
     this.last = numbers;
     // Numbers of another table wait for its state.
     if (!this.hello.has_scene && numbers.epoch !== this.viewer.data.epoch) return;
     this.warnings.follow(numbers);
+    this.exposeOnce(numbers);
     numbers.panes.forEach(({mse, ms}, i) => {
       Object.assign(this.viewer.images[i], {mse: mse?.value, ms});
     });

@@ -39,7 +39,8 @@ class MeasurePanel {
     this.text.classList.toggle('warn', state === 'failed');
     setText(this.text, state === 'none'
         ? (this.page.hello.has_scene
-            ? 'Saves the session and measures it by restlab run; nothing renders here meanwhile.'
+            ? 'Saves the session and measures the methods of A and B by restlab run, also where a ' +
+              'pane shows something else; nothing renders here meanwhile.'
             : 'Images of files are shown: there is nothing to measure.')
         : `${folder}: ${state === 'finished' || state === 'running' ? '' : `${state}: `}${text}`);
     this.link.hidden = state !== 'finished';

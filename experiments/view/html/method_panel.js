@@ -174,10 +174,28 @@ class MethodPanel {
                                  'aria-label': 'Search parameters of all panes'});
     this.count = make('p', {class: 'hint', role: 'status'});
     this.search.addEventListener('input', () => this.filter());
+    this.search.addEventListener('keydown', event => {
+      if (event.key === 'Escape' && !this.search.value) this.search.blur();
+    });
     this.element = make('div', {}, make('div', {class: 'row'}, this.choice.element, ...copies),
                         this.makeOpacity(), this.search, this.count,
                         ...this.panes.map(pane => pane.element));
     this.open(0);
+  }
+
+  // Returns commands that show a parameter of a pane, for the palette.
+  searchCommands() {
+    return this.panes.flatMap((pane, i) => Array.from(pane.controls?.keys() || [], name => ({
+      id: `parameter-${i}-${name}`, keys: [], group: 'Parameters',
+      title: `${name} of ${PANE_NAMES[i]}`,
+      run: () => {
+        this.page.openTab('methods');
+        this.open(i);
+        this.search.value = name;
+        this.filter();
+        pane.controls.get(name).element.querySelector('input, select').focus();
+      }
+    })));
   }
 
   // Makes the slider for the opacity of all panes' layers, shown while there is a layer.

@@ -51,10 +51,11 @@ class NumbersPanel {
       this.titles.set(key, head);
       return make('tr', {'data-row': key}, head, ...cells.map(one => one.cell));
     });
-    this.health = heads.map(() => make('td', {class: 'health', 'data-number': 'health'}));
+    this.health = heads.map(() => make('div', {class: 'health', 'data-number': 'health'}));
     const healthHelp = 'what was counted in the last frame; red: what must not happen';
     rows.push(make('tr', {'data-row': 'health'},
-                   make('th', {scope: 'row', title: healthHelp}, 'health'), ...this.health));
+                   make('th', {scope: 'row', title: healthHelp}, 'health'),
+                   ...this.health.map(cell => make('td', {}, cell))));
     this.rows = rows;
     this.histories = make('p', {class: 'line-text', 'data-number': 'histories', hidden: ''});
     this.reference = make('p', {class: 'line-text', 'data-number': 'reference'});

@@ -14,6 +14,11 @@ function isWholeNumber(info) {
   return [info.default, info.value, ...(info.range || [])].every(Number.isInteger);
 }
 
+// Returns the parts of a name; a line may end between them.
+function breakable(name) {
+  return name.split(/(?<=[_.])/).flatMap((part, i) => i ? [make('wbr'), part] : [part]);
+}
+
 class ParameterControl {
   // `send(value)`; null means the default.
   constructor(info, send) {
@@ -36,8 +41,8 @@ class ParameterControl {
     this.about = make('p', {class: 'about', hidden: ''}, this.aboutText(info));
     this.unused = make('p', {class: 'why', hidden: ''});
     this.element = make('div', {class: 'parameter', 'data-parameter': info.name},
-                        make('label', {for: this.id, title: info.help || ''}, info.name), more,
-                        this.reset, this.input.element, this.unused, this.about);
+                        make('label', {for: this.id, title: info.help || ''}, ...breakable(info.name)),
+                        more, this.reset, this.input.element, this.unused, this.about);
     this.words = [info.name, info.help, info.part, info.source].join(' ').toLowerCase();
     // Show a value that was held back while the control had the focus, such as a refused one.
     this.element.addEventListener('focusout', () => {
@@ -68,7 +73,10 @@ class ParameterControl {
     }
     const isNumber = typeof info.default === 'number';
     const field = make('input', {type: isNumber ? 'number' : 'text', step: 'any', id});
-    field.addEventListener('change', () => send(isNumber ? Number(field.value) : field.value));
+    field.addEventListener('change', () => {
+      if (isNumber && field.value === '') field.value = this.info.value;
+      else send(isNumber ? Number(field.value) : field.value);
+    });
     return {element: field, show: value => { field.value = value; },
             get isBusy() { return document.activeElement === field; }};
   }
@@ -116,14 +124,20 @@ function makeColourInput(info, send, id) {
     const numbers = String(text).replace(/[[\]\s]/g, '').split(',').map(Number);
     return numbers.length === 1 ? [numbers[0], numbers[0], numbers[0]] : numbers;
   };
-  field.addEventListener('change', () => send(field.value));
+  field.addEventListener('change', () => {
+    const numbers = field.value.trim().split(/[\s,]+/);
+    const isList = numbers.length === 3 && !numbers[0].startsWith('[');
+    send(isList ? `[${numbers.join(', ')}]` : field.value);
+  });
   picker.addEventListener('change', () => {
     const channels = [1, 3, 5].map(at => toLinear(parseInt(picker.value.slice(at, at + 2), 16) / 255));
     send(`[${channels.map(v => Number(v.toPrecision(4))).join(', ')}]`);
   });
   const show = value => {
-    field.value = value;
     const numbers = numbersOf(value);
+    field.value = String(value).replace(/\d+\.\d{7,}(?:e[-+]?\d+)?/gi,
+                                        text => Number(Number(text).toPrecision(7)));
+    field.title = value;
     picker.hidden = !(info.has_picker && numbers.length === 3 && numbers.every(v => v >= 0 && v <= 1));
     if (picker.hidden) return;
     const hex = v => Math.round(255 * toSrgb(v)).toString(16).padStart(2, '0');

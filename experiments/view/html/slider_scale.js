@@ -48,15 +48,27 @@ class NumberInput {
       send(Number(this.number.value));
     });
     this.number.addEventListener('change', () => {
-      if (this.number.value === '') return;
+      if (this.number.value === '' || !this.number.checkValidity()) {
+        this.refuse(`${name}: must be a${isWhole ? ' whole' : ''} number between ${lo} and ${hi}`);
+        return;
+      }
       const value = Number(this.number.value);
       this.slider.value = this.scale.to(value);
       send(value);
     });
   }
 
+  // Says what is wrong, and shows the value that holds.
+  refuse(text) {
+    const given = this.number.value;
+    this.number.value = this.held;
+    this.element.dispatchEvent(new CustomEvent('refused', {
+      bubbles: true, detail: given ? `${text}, not ${given}` : text
+    }));
+  }
+
   show(value) {
-    this.number.value = value;
+    this.held = this.number.value = value;
     this.slider.value = this.scale.to(value);
   }
 
