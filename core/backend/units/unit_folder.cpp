@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/backend/embree.h"
 #include "core/backend/units/unit_source.h"
 #include "core/base/cache_folder.h"
 
@@ -85,6 +86,17 @@ size_t codeBytesOf(const fs::path& file) {
   return bytes;
 }
 
+// Units call Embree by name. Where this code is in a library that a program has loaded later, such
+// as a Python module, Embree is known to that library alone until it is opened for all.
+void showEmbree() {
+  static const bool isShown = [] {
+    Dl_info embree;
+    return dladdr(reinterpret_cast<void*>(&rtcIntersect1), &embree) != 0 &&
+           dlopen(embree.dli_fname, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD) != nullptr;
+  }();
+  static_cast<void>(isShown);
+}
+
 }  // namespace
 
 fs::path UnitFolder::defaultFolder() { return cacheFolder("units"); }
@@ -129,6 +141,7 @@ UnitFolder::Loaded UnitFolder::load(const std::string& key) const {
   if (lstat(file.c_str(), &info) != 0 && errno == ENOENT) return {};
   const std::string why = whyNotLoaded(key, file);
   if (!why.empty()) return {nullptr, 0, fmt::format("{}: {}", file.string(), why), false};
+  showEmbree();
   void* unit = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* entry = unit == nullptr ? nullptr : dlsym(unit, kUnitEntry);
   if (entry == nullptr)
