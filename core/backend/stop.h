@@ -6,9 +6,10 @@
 
 namespace restlab {
 
-// Skips tiles and workgroups that have not begun, from now on and for good. Safe in a signal
-// handler.
+// Skips tiles and workgroups that have not begun, from now on. Safe in a signal handler.
 void stopFrames() noexcept;
+// Lets frames run again, in a program that goes on after a signal. No frame may be under way.
+void resumeFrames() noexcept;
 bool framesStopped() noexcept;
 
 // Thrown by a stopped frame: its image and its session's buffers hold no whole frame.

@@ -208,6 +208,14 @@ std::vector<std::pair<std::string, size_t>> Pipeline::bufferBytesPerPixel() cons
   return sizes;
 }
 
+size_t Pipeline::codeBytes() {
+  std::map<std::string, size_t> bytes;  // several passes may share a kernel
+  for (const KernelUse& use : kernels()) bytes[use.kernel] = backend_.codeBytes(use);
+  size_t sum = 0;
+  for (const auto& [kernel, own] : bytes) sum += own;
+  return sum;
+}
+
 size_t Pipeline::bytesPerPixelOf(size_t pixels) const {
   const FrameGraph graph = recorded(parameters_, pixels);
   size_t sum = 0;

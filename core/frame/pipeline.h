@@ -61,6 +61,8 @@ class Pipeline {
 
   // Kernels of the passes.
   std::vector<KernelUse> kernels() { return kernelsOf(graph_); }
+  // Machine code of those that were compiled for the scene.
+  size_t codeBytes();
   void allocate();
   void prepare(StartupReport& report);
   // Zeroes every buffer but the host's tables.

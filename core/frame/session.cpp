@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <optional>
 
 #include "core/backend/backend.h"
@@ -38,7 +37,7 @@ struct Session::Impl {
   HostFilter onHost;  // set by a denoiser that filters on the host
   rl::FrameData frame{};
   rl::FeatureMask needed = 0;
-  Image radiance;
+  std::shared_ptr<Image> radiance = std::make_shared<Image>();
   bool isRadianceRead = true;  // `radiance` holds the last frame
   StartupReport startup;
   rl::Camera nextCamera{};
@@ -76,6 +75,11 @@ struct Session::Impl {
   // Saves the state before a frame; false if memory does not suffice.
   bool keep();
   void restore();
+  // Image to write to: a new one if others hold that of an earlier frame.
+  Image& ownRadiance() {
+    if (radiance.use_count() > 1) radiance = std::make_shared<Image>(config.width, config.height);
+    return *radiance;
+  }
   ShownFrame shown() const { return {config.parameters, lastFrame, *lastScene}; }
   size_t pixelAt(uint32_t x, uint32_t y) const;
 };
@@ -124,7 +128,7 @@ void Session::Impl::open() {
   drawnLights = backend->allocate(sizeof(uint32_t) * std::max(scene->lightRecords(), size_t{1}));
   backend->tellDrawnLights(drawnLights);
   pipeline->prepare(startup);
-  radiance = Image(config.width, config.height);
+  ownRadiance() = Image(config.width, config.height);
   isRadianceRead = true;
   isFirstFrame = true;
   const std::vector<SceneCamera>& cameras = scene->source().cameras;
@@ -216,7 +220,7 @@ void Session::Impl::submitFrame() {
 FrameStats Session::Impl::collectFrame() {
   FrameStats stats = statsOf(pipeline->collect(backend->collect()));
   if (onHost) {
-    radiance =
+    ownRadiance() =
         filterOnHost(onHost, method.denoiser->name, *pipeline, config.width, config.height, stats);
     isRadianceRead = true;
   }
@@ -242,7 +246,7 @@ bool Session::Impl::keep() {
     return false;
   }
   beforeFrame = {frame, lastFrame, isFirstFrame, hasNewParameters, isRadianceRead, {}};
-  if (onHost) beforeFrame->filtered = radiance;
+  if (onHost) beforeFrame->filtered = *radiance;
   return true;
 }
 
@@ -253,7 +257,7 @@ void Session::Impl::restore() {
   isFirstFrame = beforeFrame->isFirstFrame;
   hasNewParameters = beforeFrame->hasNewParameters;
   isAovTraced = false;
-  if (onHost) radiance = std::move(beforeFrame->filtered);
+  if (onHost) ownRadiance() = std::move(beforeFrame->filtered);
   // An image read since is that of the discarded frame: it must be read again.
   isRadianceRead = beforeFrame->isRadianceRead && (onHost || !isRadianceRead);
   beforeFrame.reset();
@@ -387,11 +391,14 @@ void Session::setCamera(const SceneCamera& camera) {
   impl_->nextCamera = impl_->scene->camera(camera, impl_->config.width, impl_->config.height);
 }
 
-const Image& Session::radiance() const {
+const Image& Session::radiance() const { return *sharedRadiance(); }
+
+std::shared_ptr<const Image> Session::sharedRadiance() const {
   Impl& m = *impl_;
   if (!m.isRadianceRead) {
-    m.backend->read(m.pipeline->shown(), m.radiance.pixels.data(),
-                    m.radiance.pixels.size() * sizeof(glm::vec3));
+    Image& image = m.ownRadiance();
+    m.backend->read(m.pipeline->shown(), image.pixels.data(),
+                    image.pixels.size() * sizeof(glm::vec3));
     m.isRadianceRead = true;
   }
   return m.radiance;
@@ -467,14 +474,7 @@ std::string Session::lightLeftOut() const {
 
 rl::FeatureMask Session::featuresNeeded() const { return impl_->needed; }
 rl::FeatureMask Session::featuresUsed() const { return impl_->pipeline->featuresUsed(); }
-size_t Session::codeBytes() const {
-  std::map<std::string, size_t> bytes;  // several passes may share a kernel
-  for (const KernelUse& use : impl_->pipeline->kernels())
-    bytes[use.kernel] = impl_->backend->codeBytes(use);
-  size_t sum = 0;
-  for (const auto& [kernel, own] : bytes) sum += own;
-  return sum;
-}
+size_t Session::codeBytes() const { return impl_->pipeline->codeBytes(); }
 double Session::averagedFrames() const {
   const auto& shownFrames = impl_->method.denoiser->shownFrames;
   const double radianceFrames = impl_->frame.radianceFrames;

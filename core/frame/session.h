@@ -132,6 +132,9 @@ class Session {
 
   // Image of the last frame; read from the device at the first call.
   const Image& radiance() const;
+  // The same image, which stays as it is while anyone holds it: later frames are read into another
+  // one.
+  std::shared_ptr<const Image> sharedRadiance() const;
   // Number of frames of a still view that a shown pixel averages once its history is old: 1 if
   // every frame stands alone.
   double averagedFrames() const;

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/frame/method_settings.h"
-#include "experiments/runner/tables/columns.h"
+#include "experiments/runner/tables/csv.h"
 #include "experiments/runner/tables/report.h"
 
 namespace restlab {
@@ -22,17 +22,10 @@ std::string quoted(const std::string& value) {
   return out;
 }
 
-// Value of a column, or an end of its interval.
-struct Field {
-  const Column* column;
-  double Interval::*end;  // null: the value
-  std::string name;
-
-  std::string text(const MethodSummary& row) const {
-    if (end == nullptr) return textOf(*column, row);
-    return exactNumber(std::get<Interval>(column->get(row)).*end);
-  }
-};
+std::string fieldText(const CsvField& field, const MethodSummary& row) {
+  if (field.end == nullptr) return textOf(*field.column, row);
+  return exactNumber(std::get<Interval>(field.value(row)).value);
+}
 
 std::vector<std::string> namesOfFirst() {
   std::vector<std::string> names = {"scene", "camera"};
@@ -45,8 +38,15 @@ std::vector<std::string> namesOfFirst() {
   return names;
 }
 
-std::vector<Field> fieldsOf(const Columns& columns) {
-  std::vector<Field> fields;
+}  // namespace
+
+ColumnValue CsvField::value(const MethodSummary& row) const {
+  const ColumnValue all = column->get(row);
+  return end == nullptr ? all : only(std::get<Interval>(all).*end);
+}
+
+std::vector<CsvField> csvFields(const Columns& columns) {
+  std::vector<CsvField> fields;
   for (const Column& column : columns) {
     if (!column.inCsv) continue;
     fields.push_back({&column, nullptr, column.key});
@@ -56,26 +56,24 @@ std::vector<Field> fieldsOf(const Columns& columns) {
   }
   auto place = fields.begin();
   for (const std::string& name : namesOfFirst()) {
-    const auto found =
-        std::find_if(place, fields.end(), [&](const Field& field) { return field.name == name; });
+    const auto found = std::find_if(place, fields.end(),
+                                    [&](const CsvField& field) { return field.name == name; });
     std::rotate(place, found, found + 1);
     ++place;
   }
   return fields;
 }
 
-}  // namespace
-
 std::string summaryCsv(const std::vector<MethodSummary>& rows) {
   if (rows.empty()) return "";
   const Columns columns = columnsOf(rows);
-  const std::vector<Field> fields = fieldsOf(columns);
+  const std::vector<CsvField> fields = csvFields(columns);
   std::vector<std::string> cells;
-  for (const Field& field : fields) cells.push_back(quoted(field.name));
+  for (const CsvField& field : fields) cells.push_back(quoted(field.name));
   std::string text = fmt::format("{}\n", fmt::join(cells, ","));
   for (const MethodSummary& row : rows) {
     cells.clear();
-    for (const Field& field : fields) cells.push_back(quoted(field.text(row)));
+    for (const CsvField& field : fields) cells.push_back(quoted(fieldText(field, row)));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
