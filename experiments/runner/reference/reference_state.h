@@ -36,6 +36,13 @@ struct ReferenceState {
   uint64_t spp() const { return half0.count() + half1.count(); }
 };
 
+// Samples are summed by blocks of this many per pixel, half of them of each half; sums of complete
+// blocks are added up in the order of the blocks. Blocks rendered elsewhere thus give the same bits
+// (reference_chunk.h).
+constexpr uint64_t kBlockSpp = 1024;
+// Bytes of the sums of a block.
+constexpr size_t kBlockBytesPerPixel = 3 * sizeof(glm::dvec3);
+
 // Bytes of a state, in memory and in its file.
 constexpr size_t kStateBytesPerPixel = 3 * sizeof(glm::dvec3);
 
