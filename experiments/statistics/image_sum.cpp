@@ -29,33 +29,19 @@ void ImageSum::addSquares(const Image& frame) {
   }
 }
 
+void ImageSum::add(const ImageSum& sum) {
+  if (count_ == 0) {
+    *this = sum;
+    return;
+  }
+  count_ += sum.count_;
+  for (size_t i = 0; i < sum_.size(); ++i) sum_[i] += sum.sum_[i];
+}
+
 Image ImageSum::mean() const {
   Image image(width_, height_);
   const double scale = 1.0 / double(count_);
   for (size_t i = 0; i < sum_.size(); ++i) image.pixels[i] = glm::vec3(sum_[i] * scale);
-  return image;
-}
-
-Image ImageSum::meanOfBoth(const ImageSum& a, const ImageSum& b) {
-  if (b.count_ == 0) return a.mean();
-  Image image(a.width_, a.height_);
-  const double scale = 1.0 / double(a.count_ + b.count_);
-  for (size_t i = 0; i < a.sum_.size(); ++i) {
-    image.pixels[i] = glm::vec3((a.sum_[i] + b.sum_[i]) * scale);
-  }
-  return image;
-}
-
-Image ImageSum::varianceOfMean(const ImageSum& a, const ImageSum& b, const ImageSum& squares) {
-  Image image(a.width_, a.height_);
-  const double n = double(a.count_ + b.count_);
-  for (size_t i = 0; i < a.sum_.size(); ++i) {
-    const glm::dvec3 mean = (a.sum_[i] + b.sum_[i]) / n;
-    const glm::dvec3 meanSquare = squares.sum_[i] / n;
-    // Clamp: rounding can make the variance of a constant pixel slightly negative.
-    const glm::dvec3 variance = glm::max(meanSquare - mean * mean, glm::dvec3(0.0));
-    image.pixels[i] = glm::vec3(variance / (n - 1.0));
-  }
   return image;
 }
 

@@ -18,6 +18,8 @@ class ImageSum {
 
   void add(const Image& frame);
   void addSquares(const Image& frame);
+  // Adds another sum of such frames.
+  void add(const ImageSum& sum);
   uint64_t count() const { return count_; }
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
@@ -26,11 +28,6 @@ class ImageSum {
 
   // Mean of the frames; at least one frame must have been added.
   Image mean() const;
-  // Mean of the frames of both sums.
-  static Image meanOfBoth(const ImageSum& a, const ImageSum& b);
-  // Per-pixel variance of that mean, from the sample variance over all frames (at least two).
-  // `squares`: sum of the squares of all frames.
-  static Image varianceOfMean(const ImageSum& a, const ImageSum& b, const ImageSum& squares);
 
  private:
   void begin(const Image& frame);

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "experiments/statistics/image_sum.h"
-
 namespace restlab {
 
 LiveReference::~LiveReference() { keep(); }
@@ -57,7 +55,7 @@ void LiveReference::show(const Reference& reference) {
 
 const LiveReference::Pictures& LiveReference::pictures() const {
   if (pictures_.spp == spp()) return pictures_;
-  pictures_ = {spp(), ImageSum::meanOfBoth(state_.half0, state_.half1), state_.half0.mean(),
+  pictures_ = {spp(), BlockSum::meanOfBoth(state_.half0, state_.half1), state_.half0.mean(),
                state_.half1.mean(), estimateRelmse(state_.half0, state_.half1)};
   return pictures_;
 }

@@ -39,8 +39,7 @@ class LiveReference {
 
   // Bytes of host memory that hold the rendered samples.
   uint64_t heldBytes() const {
-    const bool isRendered = halves_.has_value() || state_.spp() > 0;
-    return isRendered ? uint64_t(config_.width) * config_.height * kStateBytesPerPixel : 0;
+    return uint64_t(config_.width) * config_.height * state_.bytesPerPixel();
   }
   uint64_t spp() const { return isGiven_ ? pictures_.spp : state_.spp(); }
   // True if both halves have a sample; required by the functions below.

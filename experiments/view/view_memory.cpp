@@ -33,7 +33,7 @@ size_t hostBytesPerPixelOf(const PreparedScene& prepared, SessionConfig config) 
 
 uint64_t viewBytesPerPixel(const std::vector<size_t>& panes, size_t referenceHalf) {
   constexpr uint64_t kImage = sizeof(glm::vec3);
-  uint64_t bytes = kReferenceBytesPerPixel + kImagesForPages * kImage;
+  uint64_t bytes = referenceBytesPerPixel({}) + kImagesForPages * kImage;
   for (const size_t pane : panes) bytes += 2 * pane + kImage;
   return bytes + 2 * (2 * referenceHalf + kImage);
 }

@@ -126,7 +126,7 @@ TEST_F(ReferenceResume, AnewKeepsNothing) {
   EXPECT_TRUE(states().empty());
 }
 
-constexpr const char* kSuite = R"(scenes = ["cornell-box"]
+constexpr const char* kReferenceSuite = R"(scenes = ["cornell-box"]
 [settings]
 width = 24
 height = 16
@@ -141,7 +141,7 @@ integrator = "path"
 )";
 
 TEST_F(ReferenceResume, SuitesContinueToo) {
-  write("suite.toml", kSuite);
+  write("suite.toml", kReferenceSuite);
   const ProgramResult cut =
       runUntil([&] { return isSaid("\"total\":100000000"); },
                "run suite.toml --out out --json --set reference.spp=100000000");

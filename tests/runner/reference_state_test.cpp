@@ -35,7 +35,7 @@ ReferenceState makeState(uint32_t spp) {
   }
   state.health.health.counts[2] = uint64_t(1) << 60;
   state.health.raysPath = 12345678901234;
-  state.checks = RelmseChecks({0.1 + 0.2, 1.0 / 3.0});
+  state.checks = RelmseChecks({{16, 0.1 + 0.2, 7}, {20, 1.0 / 3.0, 11}});
   state.timeS = 0.1 + 0.2;
   state.devices = {"a device", "another \"one\""};
   state.rayTracing = {"embree"};
@@ -47,9 +47,11 @@ void expectSame(const ReferenceState& a, const ReferenceState& b) {
   EXPECT_EQ(a.half0.count(), b.half0.count());
   EXPECT_EQ(a.half1.count(), b.half1.count());
   EXPECT_EQ(a.squares.count(), b.squares.count());
-  EXPECT_EQ(a.half0.sums(), b.half0.sums());
-  EXPECT_EQ(a.half1.sums(), b.half1.sums());
-  EXPECT_EQ(a.squares.sums(), b.squares.sums());
+  for (const auto& [first, second] : {std::pair(&a.half0, &b.half0), std::pair(&a.half1, &b.half1),
+                                      std::pair(&a.squares, &b.squares)}) {
+    EXPECT_EQ(first->blocks().sums(), second->blocks().sums());
+    EXPECT_EQ(first->open().sums(), second->open().sums());
+  }
   EXPECT_EQ(a.half0.width(), b.half0.width());
   EXPECT_EQ(a.half1.height(), b.half1.height());
   EXPECT_EQ(a.health.health.counts, b.health.health.counts);
@@ -85,22 +87,30 @@ class ReferenceStateTest : public TemporaryFolder {
 };
 
 TEST_F(ReferenceStateTest, IsReadBackBitForBit) {
-  for (const uint32_t spp : {2u, 3u, 10u}) {
+  // Within the first block, at its end, where one half ends it before the other, and beyond.
+  for (const uint32_t spp : {2u, 3u, 10u, 1023u, 1024u, 1025u, 2900u}) {
     const ReferenceState state = makeState(spp);
     writeReferenceState(file(), state);
+    const uint64_t sums = state.half0.width() * state.half0.height() * state.bytesPerPixel();
+    EXPECT_GT(fs::file_size(file()), sums);
+    EXPECT_LT(fs::file_size(file()), sums + 1024) << "with a head";
+    EXPECT_LE(state.bytesPerPixel(), kStateBytesPerPixel);
+    EXPECT_EQ(state.bytesPerPixel() <= kBlockBytesPerPixel, spp <= kBlockSpp) << spp;
     expectSame(state, readReferenceState(file()));
     EXPECT_EQ(storedSamples(file(), state.id), spp);
   }
 }
 
 TEST_F(ReferenceStateTest, GoesOnAsIfItHadNeverStopped) {
-  writeReferenceState(file(), makeState(5));
-  ReferenceState state = readReferenceState(file());
-  for (uint32_t i = 6; i <= 9; ++i) {
-    (i % 2 == 1 ? state.half0 : state.half1).add(frame(i));
-    state.squares.addSquares(frame(i));
+  for (const auto& [before, after] : {std::pair(5u, 9u), std::pair(1023u, 2100u)}) {
+    writeReferenceState(file(), makeState(before));
+    ReferenceState state = readReferenceState(file());
+    for (uint32_t i = before + 1; i <= after; ++i) {
+      (i % 2 == 1 ? state.half0 : state.half1).add(frame(i));
+      state.squares.addSquares(frame(i));
+    }
+    expectSame(state, makeState(after));
   }
-  expectSame(state, makeState(9));
 }
 
 TEST_F(ReferenceStateTest, SamplesOfOthersAreNotCounted) {
@@ -137,9 +147,9 @@ TEST_F(ReferenceStateTest, SaysWhatIsWrong) {
   writeReferenceState(file(), makeState(4));
   const std::string whole = content();
   std::string other = whole;
-  other[8] = 2;
+  other[8] = 1;
   write(other);
-  EXPECT_NE(messageOfReading().find("a.state: is of version 2, not 1"), std::string::npos);
+  EXPECT_NE(messageOfReading().find("a.state: is of version 1, not 2"), std::string::npos);
   write("an image, say");
   EXPECT_NE(messageOfReading().find("is no stored progress"), std::string::npos);
   other = whole;

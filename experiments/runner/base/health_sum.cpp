@@ -14,6 +14,12 @@ void HealthSum::add(const FrameStats& frame) {
   raysShadow += frame.raysShadow;
 }
 
+void HealthSum::add(const HealthSum& sum) {
+  for (size_t i = 0; i < health.counts.size(); ++i) health.counts[i] += sum.health.counts[i];
+  raysPath += sum.raysPath;
+  raysShadow += sum.raysShadow;
+}
+
 std::string HealthSum::text() const {
   std::string text;
   for (size_t i = 0; i < health.counts.size(); ++i) {

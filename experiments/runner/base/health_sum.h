@@ -17,6 +17,7 @@ struct HealthSum {
   Health health;
   uint64_t raysPath = 0, raysShadow = 0;
   void add(const FrameStats& frame);
+  void add(const HealthSum& sum);
   // Returns "nonfinite=0 rejected_jacobian=12 ...".
   std::string text() const;
 };

@@ -70,9 +70,13 @@ std::string whyNotConverged(const Reference& reference);
 constexpr uint32_t kReferenceLayers = 4;
 
 // Approximate memory of renderReference: two sessions of `path`, each a buffer and an image; the
-// sums; the layers and their copies. Buffers of another integrator are counted by its sessions.
-constexpr size_t kReferenceBytesPerPixel =
-    4 * sizeof(glm::vec3) + kStateBytesPerPixel + 2 * kReferenceLayers * sizeof(glm::vec3);
+// sums, fewer where no second block begins; the layers and their copies. Buffers of another
+// integrator are counted by its sessions.
+constexpr size_t referenceBytesPerPixel(const ReferenceTarget& target) {
+  const bool isOneBlock = target.spp > 0 && target.spp <= kBlockSpp;
+  return 4 * sizeof(glm::vec3) + (isOneBlock ? kBlockBytesPerPixel : kStateBytesPerPixel) +
+         2 * kReferenceLayers * sizeof(glm::vec3);
+}
 
 // Hash of the sources of core/ and of the integrator that renders a reference.
 const std::string& referenceSources(const std::string& integrator);
@@ -90,6 +94,9 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
                           const std::string& unused = "");
 
 struct ReferenceState;
+// Returns scene, camera, settings and sources, as a reference's metadata name them.
+std::map<std::string, std::string> pictureWords(const PreparedScene& prepared,
+                                                const ReferenceConfig& config);
 // Returns the current result of a state, with its metadata. Both halves must have a sample.
 Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& config,
                       const ReferenceState& state);

@@ -8,6 +8,7 @@
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/reference.h"
+#include "experiments/runner/reference/reference_chunk.h"
 
 namespace restlab {
 
@@ -32,6 +33,12 @@ void storeInCache(const fs::path& file, const Reference& reference) {
   }
 }
 
+// Returns the number of samples of the stored reference; 0 if there is none of this key.
+uint64_t sppIn(const fs::path& file, const std::string& key) {
+  const StoredReference stored = readStored(file, key);
+  return stored.reference ? stored.reference->spp : 0;
+}
+
 }  // namespace
 
 StoredReference readStored(const fs::path& file, const std::string& key) {
@@ -52,6 +59,21 @@ StoredReference readStored(const fs::path& file, const std::string& key) {
     stored.unused = error.what();
   }
   return stored;
+}
+
+Reference storeMerged(const PreparedScene& prepared, const ReferenceConfig& config,
+                      const ReferenceState& state, const fs::path& folder,
+                      const std::string& label) {
+  Reference reference = referenceOf(prepared, config, state);
+  makeWritableDirectory(folder);
+  writeReference(folder / (safeFileName(label) + ".exr"), reference);
+  ReferenceStore store;
+  store.folder = referenceCacheFolder();
+  if (store.folder.empty()) return reference;
+  const fs::path cached = store.folder / (state.id.key + ".exr");
+  if (sppIn(cached, state.id.key) < reference.spp) storeInCache(cached, reference);
+  ReferenceProgress(store, state.id).save(state);
+  return reference;
 }
 
 Reference obtainReference(const PreparedScene& prepared, const ReferenceConfig& config,

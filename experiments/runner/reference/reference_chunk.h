@@ -27,9 +27,9 @@ struct ChunkRange {
 // Last sample that has a number of its own, plus one.
 constexpr uint64_t kMostSpp = uint64_t(1) << 32;
 
-// Throws Error (badUsage) that begins with `place` if the range is empty, does not begin at a
-// block, or ends beyond kMostSpp.
-void requireChunkRange(const ChunkRange& range, const std::string& place);
+// Returns why nothing can be rendered of a range: it is empty, does not begin at a block, ends
+// beyond kMostSpp, or begins at 0 without a sample of each half; "" if it can.
+std::string whyNoRange(const ChunkRange& range);
 
 // Cuts the samples from `firstSpp` (a multiple of kBlockSpp) to `endSpp` into chunks of
 // `sppOfChunk` samples, rounded up to whole blocks. The last one may be shorter.
@@ -40,13 +40,14 @@ std::vector<ChunkRange> chunkRanges(uint64_t firstSpp, uint64_t endSpp, uint64_t
 // times as many, as its error is an estimate. Returns what it has if it meets the target.
 uint64_t sppExpected(const Reference& reference, const ReferenceTarget& target);
 
-// What the head of a chunk's file says, without its sums.
+// Head of a chunk's file, without its sums.
 struct ChunkInfo {
   ReferenceId id;
   ChunkRange range;
   uint32_t width = 0, height = 0;
   double timeS = 0.0;  // spent rendering
-  // Scene, camera and settings, as the metadata of an image name them.
+  std::vector<std::string> devices, rayTracing;
+  // Scene, camera, settings, machine, and what made the file, as the metadata of an image.
   std::map<std::string, std::string> metadata;
 };
 
@@ -64,9 +65,9 @@ constexpr uint64_t chunkFileBytesPerPixel(uint64_t spp) {
 // Renders a chunk to `file`, which appears complete or not at all. A sample is the same wherever
 // it is rendered. If the file holds these samples already (same key, seed, backend and range, and
 // undamaged), nothing is rendered and the result is false; any other file is replaced, and a line
-// says why. Progress goes to stderr. Throws Error: `interrupted` on a signal, `badUsage` for a
-// method with a history, `badInput` if the file cannot be written, and what sessions throw. After a
-// throw nothing stays; the next call begins anew.
+// says why. Progress goes to stderr. Throws Error: `interrupted` on a signal, `badUsage` if a
+// method has a history and the range does not begin at 0, `badInput` if the file cannot be written,
+// and what sessions throw. After a throw nothing stays; the next call begins anew.
 bool renderChunk(const PreparedScene& prepared, const ReferenceConfig& config,
                  const ChunkRange& range, const std::filesystem::path& file);
 

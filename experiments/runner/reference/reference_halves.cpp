@@ -25,8 +25,12 @@ SessionConfig halfOf(const PreparedScene& prepared, const ReferenceConfig& confi
   return session;
 }
 
-void startAfter(const ImageSum& half, Session& session) {
-  if (half.count() > 0) session.reset(session.config().seed, uint32_t(half.count()));
+void startAt(uint64_t frame, Session& session) {
+  if (frame > 0) session.reset(session.config().seed, uint32_t(frame));
+}
+
+double spentSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void addName(std::vector<std::string>& names, const std::string& name) {
@@ -53,10 +57,10 @@ SessionConfig referenceSession(const PreparedScene& prepared, const ReferenceCon
   return session;
 }
 
-double estimateRelmse(const ImageSum& a, const ImageSum& b) {
+double estimateRelmse(const BlockSum& a, const BlockSum& b) {
   // For variance s^2 per sample, the difference of the halves has the variance s^2 (1/n0 + 1/n1),
   // their mean s^2 / (n0 + n1).
-  const Image half0 = a.mean(), half1 = b.mean(), mean = ImageSum::meanOfBoth(a, b);
+  const Image half0 = a.mean(), half1 = b.mean(), mean = BlockSum::meanOfBoth(a, b);
   const double n0 = double(a.count()), n1 = double(b.count());
   const double factor = n0 * n1 / ((n0 + n1) * (n0 + n1));
   double sum = 0.0;
@@ -69,8 +73,13 @@ double estimateRelmse(const ImageSum& a, const ImageSum& b) {
   return sum / (3.0 * double(mean.pixels.size()));
 }
 
+void addDueCheck(ReferenceState& state) {
+  if (!RelmseChecks::isDue(state.spp())) return;
+  state.checks.add({state.spp(), estimateRelmse(state.half0, state.half1), state.health.raysPath});
+}
+
 ReferenceHalves::ReferenceHalves(const PreparedScene& prepared, const ReferenceConfig& config,
-                                 ReferenceState& state, size_t hostBytesPerPixel)
+                                 ReferenceState& state, size_t hostBytesPerPixel, uint64_t firstSpp)
     : first_(prepared.scene, halfOf(prepared, config, state.id.seed, 0), hostBytesPerPixel),
       second_(prepared.scene, halfOf(prepared, config, state.id.seed, 1)),
       state_(state) {
@@ -79,13 +88,21 @@ ReferenceHalves::ReferenceHalves(const PreparedScene& prepared, const ReferenceC
     first_.setCamera(*camera);
     second_.setCamera(*camera);
   }
-  startAfter(state.half0, first_);
-  startAfter(state.half1, second_);
+  startAt(firstSpp / 2 + state.half0.count(), first_);
+  startAt(firstSpp / 2 + state.half1.count(), second_);
   addName(state.devices, first_.device());
   addName(state.rayTracing, first_.rayTracing());
 }
 
 bool ReferenceHalves::addSample(const std::function<bool()>& isStopped) {
+  if (!addUnchecked(isStopped)) return false;
+  const auto start = std::chrono::steady_clock::now();
+  addDueCheck(state_);
+  state_.timeS += spentSince(start);
+  return true;
+}
+
+bool ReferenceHalves::addUnchecked(const std::function<bool()>& isStopped) {
   const auto start = std::chrono::steady_clock::now();
   const bool isFirst = state_.half0.count() == state_.half1.count();
   Session& half = isFirst ? first_ : second_;
@@ -97,10 +114,7 @@ bool ReferenceHalves::addSample(const std::function<bool()>& isStopped) {
   (isFirst ? state_.half0 : state_.half1).add(frame);
   state_.squares.addSquares(frame);
   state_.health.add(*stats);
-  if (RelmseChecks::isDue(state_.spp()))
-    state_.checks.add(estimateRelmse(state_.half0, state_.half1));
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  state_.timeS += spent.count();
+  state_.timeS += spentSince(start);
   return true;
 }
 

@@ -9,45 +9,19 @@
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/interrupt.h"
 #include "experiments/runner/base/log.h"
-#include "experiments/runner/reference/light_draws.h"
 #include "experiments/runner/reference/reference.h"
 #include "experiments/runner/reference/reference_halves.h"
+#include "experiments/runner/reference/reference_stop.h"
 #include "experiments/runner/suite/backend_choice.h"
-#include "experiments/statistics/image_sum.h"
 
 namespace restlab {
 
 namespace {
 
-RareLights rareLightsOf(const ReferenceState& state, const std::vector<DrawnLight>& lights) {
-  return rareLights(lights, double(state.health.raysPath), double(state.spp()));
-}
-
-// Returns whether the state meets the target. A small enough error counts if every light was drawn
-// often enough, or if nothing else would end the wait.
-bool isEnough(const ReferenceState& state, const ReferenceTarget& target,
-              const std::vector<DrawnLight>& lights) {
-  return targetReached(target, state.spp(), state.checks.sinceHalf(), state.timeS,
-                       rareLightsOf(state, lights).sppNeeded);
-}
-
-// Returns the text beside the progress: the error, and the light that the target waits for.
-std::string noteOf(const ReferenceState& state, const ReferenceTarget& target,
-                   const std::vector<DrawnLight>& lights) {
-  const std::vector<double>& checks = state.checks.kept();
-  if (checks.empty()) return "";
-  const std::string relmse = fmt::format("relmse {:.3g}", checks.back());
-  if (!(target.relmse > 0.0 && state.checks.sinceHalf() <= target.relmse)) return relmse;
-  const RareLights rare = rareLightsOf(state, lights);
-  if (rare.lights.empty()) return relmse;
-  return fmt::format("{}, {:.3g} of {:g} draws of '{}'", relmse, rare.fewestDraws,
-                     kFewestLightDraws, oneLine(rare.lights.front().name));
-}
-
 void renderUntil(ReferenceHalves& halves, ReferenceState& state, const ReferenceTarget& target,
-                 ReferenceProgress& kept, const std::vector<DrawnLight>& lights) {
+                 const ReferenceStop& stop, ReferenceProgress& kept) {
   Progress progress("reference", target.spp, state.spp());
-  while (!isEnough(state, target, lights)) {
+  while (!stop.isReached(state)) {
     if (interruptRequested()) {
       progress.finish();
       throw Error(ExitCode::interrupted,
@@ -64,19 +38,9 @@ void renderUntil(ReferenceHalves& halves, ReferenceState& state, const Reference
       continue;  // with the samples before this one
     }
     kept.update(state);
-    progress.update(state.spp(), noteOf(state, target, lights));
+    progress.update(state.spp(), stop.note(state));
   }
   progress.finish();
-}
-
-// Lists the lights that are sampled: none without a scattering event.
-std::vector<DrawnLight> sampledLights(const PreparedScene& prepared,
-                                      const ReferenceConfig& config) {
-  // A method of a suite draws as it likes, or takes one sample of each light.
-  const std::vector<std::string>& known = referenceIntegrators();
-  const bool isOfMethod = std::find(known.begin(), known.end(), config.integrator) == known.end();
-  const bool hasNone = isOfMethod || config.maxBounces == 0;
-  return hasNone ? std::vector<DrawnLight>() : drawnLights(*prepared.scene);
 }
 
 void describeLights(const PreparedScene& prepared, const ReferenceConfig& config,
@@ -97,26 +61,30 @@ std::string joined(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::map<std::string, std::string> pictureWords(const PreparedScene& prepared,
+                                                const ReferenceConfig& config) {
+  std::map<std::string, std::string> words = describe(prepared, referenceSession(prepared, config));
+  if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) describeCamera(*camera, words);
+  words["reference_sources"] = referenceSources(config.integrator);
+  return words;
+}
+
 Reference referenceOf(const PreparedScene& prepared, const ReferenceConfig& config,
                       const ReferenceState& state) {
   Reference reference;
-  reference.mean = ImageSum::meanOfBoth(state.half0, state.half1);
+  reference.mean = BlockSum::meanOfBoth(state.half0, state.half1);
   reference.half0 = state.half0.mean();
   reference.half1 = state.half1.mean();
-  reference.variance = ImageSum::varianceOfMean(state.half0, state.half1, state.squares);
+  reference.variance = BlockSum::varianceOfMean(state.half0, state.half1, state.squares);
   reference.spp = state.spp();
   reference.relmse = estimateRelmse(state.half0, state.half1);
   reference.relmseSinceHalf = state.checks.sinceHalf();
   reference.timeS = state.timeS;
-  reference.metadata = describe(prepared, referenceSession(prepared, config));
-  if (const SceneCamera* camera = cameraInsteadOf(prepared, config)) {
-    describeCamera(*camera, reference.metadata);
-  }
+  reference.metadata = pictureWords(prepared, config);
   reference.metadata.merge(provenanceWords());  // of the program that rendered the last samples
   reference.metadata["device"] = joined(state.devices);
   reference.metadata["ray_tracing"] = joined(state.rayTracing);
   reference.metadata["kind"] = "reference";
-  reference.metadata["reference_sources"] = referenceSources(config.integrator);
   reference.metadata["reference_key"] = state.id.key;
   reference.metadata["seed"] = std::to_string(state.id.seed);
   reference.metadata["spp"] = std::to_string(reference.spp);
@@ -135,7 +103,8 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
     failUsage("a reference needs a target: spp, target-relmse or time-limit");
   }
   if (target.spp == 1) failUsage("a reference needs at least 2 spp: one for each of its halves");
-  requireMemory(config.integrator, config.width, config.height, kReferenceBytesPerPixel);
+  const size_t bytesPerPixel = referenceBytesPerPixel(target);
+  requireMemory(config.integrator, config.width, config.height, bytesPerPixel);
   const ReferenceId id{referenceKey(prepared, config), config.seed, config.backend};
   ReferenceProgress kept(store, id);
   std::optional<ReferenceState> found = kept.load();
@@ -143,8 +112,8 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
   state.id = id;
   if (found) state = std::move(*found);
 
-  const std::vector<DrawnLight> lights = sampledLights(prepared, config);
-  const bool isFinished = isEnough(state, target, lights);
+  const ReferenceStop stop(prepared, config, target);
+  const bool isFinished = stop.isReached(state);
   if (found) {
     logInfo(fmt::format("{}: {} {} spp of {}", unused.empty() ? "reference" : unused,
                         isFinished ? "made of the" : "continues after the", state.spp(),
@@ -153,10 +122,10 @@ Reference renderReference(const PreparedScene& prepared, const ReferenceConfig& 
     logInfo(unused + "; rendered anew");
   }
   if (!isFinished) {
-    const size_t there = 2 * sizeof(glm::vec3) + (state.spp() > 0 ? kStateBytesPerPixel : 0);
-    ReferenceHalves halves(prepared, config, state, kReferenceBytesPerPixel - there);
+    const size_t there = 2 * sizeof(glm::vec3) + state.bytesPerPixel();
+    ReferenceHalves halves(prepared, config, state, bytesPerPixel - there);
     try {
-      renderUntil(halves, state, target, kept, lights);
+      renderUntil(halves, state, target, stop, kept);
     } catch (...) {
       kept.save(state);  // keep the samples before e.g. a lost device
       throw;

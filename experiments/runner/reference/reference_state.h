@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "experiments/runner/base/health_sum.h"
+#include "experiments/runner/reference/reference_blocks.h"
 #include "experiments/runner/reference/relmse_checks.h"
-#include "experiments/statistics/image_sum.h"
+#include "experiments/statistics/block_sum.h"
 
 namespace restlab {
 
@@ -25,8 +26,8 @@ struct ReferenceState {
   ReferenceId id;
   // Samples alternate between the halves, half0 first. A half's count is the number of its next
   // frame.
-  ImageSum half0, half1;
-  ImageSum squares;  // over both halves
+  BlockSum half0{kBlockSpp / 2}, half1{kBlockSpp / 2};
+  BlockSum squares{kBlockSpp};  // over both halves
   RelmseChecks checks;
   HealthSum health;
   double timeS = 0.0;  // spent rendering
@@ -34,17 +35,15 @@ struct ReferenceState {
   std::vector<std::string> devices, rayTracing;
 
   uint64_t spp() const { return half0.count() + half1.count(); }
+  // Memory of the sums, which is also what they take in the file.
+  size_t bytesPerPixel() const {
+    return half0.bytesPerPixel() + half1.bytesPerPixel() + squares.bytesPerPixel();
+  }
 };
 
-// Samples are summed by blocks of this many per pixel, half of them of each half; sums of complete
-// blocks are added up in the order of the blocks. Blocks rendered elsewhere thus give the same bits
-// (reference_chunk.h).
-constexpr uint64_t kBlockSpp = 1024;
-// Bytes of the sums of a block.
-constexpr size_t kBlockBytesPerPixel = 3 * sizeof(glm::dvec3);
-
-// Bytes of a state, in memory and in its file.
-constexpr size_t kStateBytesPerPixel = 3 * sizeof(glm::dvec3);
+// Most bytes of a state, in memory and in its file: the sums of complete blocks and of the open
+// one.
+constexpr size_t kStateBytesPerPixel = 2 * kBlockBytesPerPixel;
 
 // Writes a state of at least two samples, completely or not at all. Throws Error (badInput) naming
 // the file.

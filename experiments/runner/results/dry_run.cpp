@@ -169,7 +169,7 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
   cost.seconds = runS * double((toMake + beside - 1) / beside);
   const size_t pixels = size_t(block.width) * block.height;
   cost.memoryMiB = double(pixels) *
-                   double(std::max(bytesPerPixel * beside, kReferenceBytesPerPixel)) /
+                   double(std::max(bytesPerPixel * beside, referenceBytesPerPixel(suite.target))) /
                    (1024.0 * 1024.0);
   if (references.missing == 0) return cost;
   const std::optional<double> referenceS = secondsOfReference(suite, prepared, picture);

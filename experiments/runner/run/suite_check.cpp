@@ -142,7 +142,7 @@ void checkScene(const Suite& suite, const SuiteScene& scene, const PreparedScene
   const size_t bytesPerPixel = openMethods(suite, scene, prepared, width, height, found);
   atPlace(scene.place, [&] {
     requireMemory(fmt::format("scene {}", scene.name), width, height,
-                  std::max(bytesPerPixel * suite.jobs, kReferenceBytesPerPixel));
+                  std::max(bytesPerPixel * suite.jobs, referenceBytesPerPixel(suite.target)));
   });
 }
 
