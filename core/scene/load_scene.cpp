@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <exception>
 
 #include "core/base/error.h"
 #include "core/base/file_reason.h"
 #include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_folders.h"
 #include "core/scene/scene_file/scene_file.h"
 
 namespace restlab {
@@ -124,16 +124,6 @@ std::optional<std::string> variantOf(const std::string& settings, const std::str
   return settings.substr(key.size());
 }
 
-// Folders in which a name is looked for.
-std::vector<fs::path> foldersFor(const fs::path& path) {
-  std::vector<fs::path> folders = {""};
-  if (path.is_absolute()) return folders;
-  const char* scenes = std::getenv("RESTLAB_SCENES");
-  if (scenes != nullptr && *scenes != '\0') folders.emplace_back(scenes);
-  folders.emplace_back("../shared/scenes");
-  return folders;
-}
-
 std::optional<uint32_t> bouncesOf(const std::string& nameOrPath, int depth);
 
 // glTF files that are damaged have none: loading says what is wrong with them.
@@ -163,7 +153,7 @@ std::optional<uint32_t> bouncesOfFile(const fs::path& file, const std::string& s
 std::optional<uint32_t> bouncesOf(const std::string& nameOrPath, int depth) {
   if (nameOrPath.empty() || isBuiltinScene(nameOrPath)) return {};
   const auto [name, settings] = splitSceneSettings(nameOrPath);
-  for (const fs::path& folder : foldersFor(name))
+  for (const fs::path& folder : sceneFoldersFor(name))
     if (const fs::path file = resolve(folder / name); !file.empty())
       return bouncesOfFile(file, settings, depth);
   return {};
@@ -181,7 +171,7 @@ Scene loadScene(const std::string& nameOrPath) {
   if (isBuiltinScene(nameOrPath)) return makeBuiltinScene(nameOrPath);
   const auto [name, settings] = splitSceneSettings(nameOrPath);
   const fs::path path(name);
-  const std::vector<fs::path> folders = foldersFor(path);
+  const std::vector<fs::path> folders = sceneFoldersFor(path);
   std::vector<std::string> near = builtins;
   std::string tried, namesake;
   for (const fs::path& folder : folders) {

@@ -19,6 +19,7 @@ target_sources(rl_core PRIVATE
   scene/linear_map.cpp
   scene/plate.cpp
   scene/load_scene.cpp
+  scene/scene_folders.cpp
   scene/scene_file/material_kinds.cpp
   scene/scene_file/scattering.cpp
   scene/scene_file/scene_file.cpp

@@ -8,8 +8,11 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_folders.h"
 #include "core/scene/mitsuba/mitsuba.h"
 #include "core/scene/scene_file/scene_file.h"
+#include "experiments/cli/completion.h"
+#include "experiments/cli/man_page.h"
 #include "experiments/cli/reference_page.h"
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/files.h"
@@ -23,29 +26,31 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kKinds =
-    "integrators, caches, backends, denoisers, metrics, closures, shapes, scenes, or all: "
-    "docs/reference.md";
+    "integrators, caches, backends, denoisers, metrics, closures, shapes, scenes, all "
+    "(docs/reference.md), man or completion (of bash)";
 
 struct ListOptions {
   std::string what;
+  std::string folder;  // of the pages of `man`
   bool json = false;
 };
 
-// Returns glTF files in the folder of downloaded scenes, by their path inside it.
+// Returns scenes in the folders of downloaded and of installed scenes, by their path inside it.
 std::vector<std::string> scenesOfOthers() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
-  const fs::path folder = sceneFolder();
-  if (folder.empty()) return names;
-  std::error_code status;
-  for (fs::recursive_directory_iterator it(folder, status), end; !status && it != end;
-       it.increment(status)) {
-    const std::string extension = it->path().extension().string();
-    if (extension != ".gltf" && extension != ".glb" && !isMitsubaScene(it->path()) &&
-        !isSceneFile(it->path()))
-      continue;
-    const std::string name = fs::relative(it->path(), folder).string();
-    if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files for tests
+  for (const fs::path& folder : {sceneFolder(), installedScenes()}) {
+    if (folder.empty()) continue;
+    std::error_code status;
+    for (fs::recursive_directory_iterator it(folder, status), end; !status && it != end;
+         it.increment(status)) {
+      const std::string extension = it->path().extension().string();
+      if (extension != ".gltf" && extension != ".glb" && !isMitsubaScene(it->path()) &&
+          !isSceneFile(it->path()))
+        continue;
+      const std::string name = fs::relative(it->path(), folder).string();
+      if (name.rfind("bad-", 0) != 0) names.push_back(name);  // broken files for tests
+    }
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -134,11 +139,21 @@ void printDetails(const Json& part) {
 }
 
 void list(const CLI::App& app, const ListOptions& options) {
+  if (options.what != "man" && !options.folder.empty())
+    failUsage("list: --out is the folder of the pages of `list man`");
+  if (options.what == "man") {
+    if (options.folder.empty()) failUsage("list man: needs --out, the folder of the pages");
+    return writeManPages(app, options.folder);
+  }
   if (options.what == "all" && !options.json) return printText(referencePage(app));
   const std::vector<std::pair<std::string, Json (*)()>> kinds = {
       {"integrators", integratorsJson}, {"caches", cachesJson},   {"backends", backendsJson},
       {"denoisers", denoisersJson},     {"metrics", metricsJson}, {"closures", closuresJson},
       {"shapes", shapesJson},           {"scenes", scenes}};
+  std::vector<std::string> names;
+  for (const auto& entry : kinds) names.push_back(entry.first);
+  names.insert(names.end(), {"all", "man", "completion"});
+  if (options.what == "completion") return printText(bashCompletion(app, names));
   if (options.what == "all") {
     Json all = {{"settings", transportSettingsJson()}};
     for (const auto& [name, listed] : kinds) all[name] = listed();
@@ -147,9 +162,6 @@ void list(const CLI::App& app, const ListOptions& options) {
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& entry) { return entry.first == options.what; });
   if (kind == kinds.end()) {
-    std::vector<std::string> names;
-    for (const auto& entry : kinds) names.push_back(entry.first);
-    names.emplace_back("all");
     const std::string known = fmt::format("{}", fmt::join(names, ", "));
     if (options.what.empty()) failUsage("list: say what: " + known);
     failUsage(fmt::format("list {}: unknown kind (known: {}){}", options.what, known,
@@ -189,6 +201,7 @@ Action addListVerb(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* verb = app.add_subcommand("list", kKinds);
   verb->add_option("what", options->what, kKinds);
+  verb->add_option("-o,--out", options->folder, "of man: the folder of the pages");
   verb->add_flag("--json", options->json, "JSON on stdout");
   return [&app, options](Outcome&) { list(app, *options); };
 }

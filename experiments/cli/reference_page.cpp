@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame/denoiser.h"
+#include "experiments/cli/option_text.h"
 #include "experiments/runner/registries/registries.h"
 #include "experiments/runner/tables/column_groups.h"
 
@@ -128,30 +129,13 @@ Json denoisersOfEveryBuild() {
   return all;
 }
 
-// Leaves out what every verb has.
-bool isCommon(const CLI::Option& option) {
-  return option.check_lname("help") || option.check_lname("quiet") || option.check_lname("verbose");
-}
-
-// Returns a value's range, or its kind in words; --help has "UINT:from 1 to 16384".
-std::string kindOf(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const size_t colon = type.find(':');
-  if (colon != std::string::npos) return type.substr(colon + 1);
-  return type == "TEXT" ? "text" : type;
-}
-
 // Names of an option, and its row of a table.
 struct OptionRow {
   std::string names, row;
 };
 
 OptionRow rowOf(const CLI::Option& option) {
-  std::string names;
-  for (const std::string& name : option.get_snames()) names += (names.empty() ? "-" : ", -") + name;
-  for (const std::string& name : option.get_lnames())
-    names += (names.empty() ? "--" : ", --") + name;
-  if (names.empty()) names = option.get_name(true);
+  const std::string names = namesOf(option);
   return {code(names), fmt::format("| {} | {} | {} |\n", code(names), cell(kindOf(option)),
                                    cell(option.get_description()))};
 }

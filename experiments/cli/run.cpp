@@ -120,7 +120,7 @@ void refuseScene(const std::string& name) {
   const std::string file = splitSceneSettings(name).first;
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension != ".gltf" && extension != ".glb" && extension != ".xml" && !isSceneFile(file) &&
-      (!isBuiltinScene(name) || std::filesystem::exists(name)))
+      (!isBuiltinScene(name) || std::filesystem::exists(name) || findSuite(name) != name))
     return;
   failUsage(
       fmt::format("run {0}: is a scene, and run takes a suite of scenes and methods (*.toml); "
@@ -173,7 +173,8 @@ void runVerb(const RunOptions& options, Outcome& outcome) {
 Action addRunVerb(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "run a suite: errors and times against references");
-  verb->add_option("suite", options->suite, "a TOML file (experiments/suites has some)")
+  verb->add_option("suite", options->suite,
+                   "a TOML file (experiments/suites has some), or the name of an installed one")
       ->required();
   verb->add_option("-o,--out", options->out, "folder of the results (default results/NAME)");
   verb->add_option("--set", options->overrides,

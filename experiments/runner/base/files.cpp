@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/share_folder.h"
 #include "core/scene/scene_file/scene_file.h"
+#include "core/scene/scene_folders.h"
 
 namespace restlab {
 
@@ -78,19 +80,37 @@ fs::path sceneFolder() {
 fs::path findAsset(const std::string& name) {
   std::error_code status;
   if (name.empty()) return {};
-  std::vector<fs::path> folders = {""};
-  if (fs::path(name).is_relative()) {
-    if (const char* given = std::getenv("RESTLAB_SCENES"); given && *given)
-      folders.push_back(given);
-    folders.push_back("../shared/scenes");
-  }
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : sceneFoldersFor(name)) {
     for (const char* extension : {"", ".gltf", ".glb", ".scene.toml", ".xml"}) {
       const fs::path candidate = folder / (name + extension);
       if (fs::exists(candidate, status)) return candidate;
     }
   }
   return {};
+}
+
+fs::path findSuite(const fs::path& name) {
+  std::error_code status;
+  if (name.empty() || name.is_absolute() || shareFolder().empty() ||
+      fs::is_regular_file(name, status))
+    return name;
+  const fs::path installed = shareFolder() / "suites" / name;
+  for (const char* extension : {"", ".toml"}) {
+    const fs::path candidate = installed.string() + extension;
+    if (fs::is_regular_file(candidate, status)) return candidate;
+  }
+  return name;
+}
+
+std::vector<std::string> installedSuites() {
+  std::vector<std::string> names;
+  if (shareFolder().empty()) return names;
+  std::error_code status;
+  for (fs::directory_iterator it(shareFolder() / "suites", status), end; !status && it != end;
+       it.increment(status))
+    if (it->path().extension() == ".toml") names.push_back(it->path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 bool isSuite(const std::string& name) {

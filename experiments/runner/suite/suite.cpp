@@ -338,11 +338,25 @@ void requireSetKeysAreNotSwept(const Sweep& sweep, const std::vector<std::string
   }
 }
 
+// findSuite(), or an error that names the installed suites for a name that is none.
+std::filesystem::path foundSuite(const std::filesystem::path& name) {
+  const std::filesystem::path file = findSuite(name);
+  const std::vector<std::string> known = installedSuites();
+  std::error_code status;
+  if (!known.empty() && !name.has_parent_path() && !std::filesystem::exists(file, status)) {
+    failUsage(fmt::format("{}: no such file, and no installed suite (there are {}){}",
+                          name.string(), fmt::join(known, ", "),
+                          didYouMean(name.stem().string(), known)));
+  }
+  return file;
+}
+
 }  // namespace
 
-std::vector<Suite> loadSuites(const std::filesystem::path& file,
+std::vector<Suite> loadSuites(const std::filesystem::path& name,
                               const std::vector<std::string>& overrides,
                               const std::vector<std::string>& sweeps) {
+  const std::filesystem::path file = foundSuite(name);
   const auto load = [&] {
     ConfigTable root = ConfigTable::parseFile(file);
     for (const std::string& assignment : overrides) applyOverride(root, assignment);
@@ -376,10 +390,10 @@ std::vector<Suite> loadSuites(const std::filesystem::path& file,
   return points;
 }
 
-Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  std::vector<Suite> points = loadSuites(file, overrides, {});
+Suite loadSuite(const std::filesystem::path& name, const std::vector<std::string>& overrides) {
+  std::vector<Suite> points = loadSuites(name, overrides, {});
   if (points.size() > 1) {
-    failUsage(fmt::format("{}: [sweep] makes {} tables, where one is meant", file.string(),
+    failUsage(fmt::format("{}: [sweep] makes {} tables, where one is meant", name.string(),
                           points.size()));
   }
   return std::move(points.front());

@@ -175,12 +175,13 @@ Suite ofScene(const Suite& suite, const SuiteScene& scene);
 // Reads a suite with `--set KEY=VALUE` overrides: KEY of [settings], reference.KEY of [reference],
 // method.KEY of every method that knows it, method.NAME.KEY of one method, sweep.KEY of [sweep], or
 // a top-level key; and with `--sweep KEY=VALUES`, further keys of [sweep]. Returns one suite per
-// combination of swept settings. Throws Error (badUsage) with file, line and column.
-std::vector<Suite> loadSuites(const std::filesystem::path& file,
+// combination of swept settings. `name` is looked for by findSuite(). Throws Error (badUsage) with
+// file, line and column.
+std::vector<Suite> loadSuites(const std::filesystem::path& name,
                               const std::vector<std::string>& overrides,
                               const std::vector<std::string>& sweeps);
 
 // Reads a suite without swept settings; throws Error (badUsage) if there are any.
-Suite loadSuite(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+Suite loadSuite(const std::filesystem::path& name, const std::vector<std::string>& overrides);
 
 }  // namespace restlab
