@@ -3,6 +3,14 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# All that is installed; what other folders install joins here.
+add_custom_target(rl_installed)
+foreach(part IN ITEMS restlab rl_shared rl_python)
+  if(TARGET ${part})
+    add_dependencies(rl_installed ${part})
+  endif()
+endforeach()
+
 install(TARGETS restlab RUNTIME)
 install(DIRECTORY experiments/suites experiments/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/restlab)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff TYPE DOC)

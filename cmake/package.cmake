@@ -14,7 +14,11 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}) # librestlab.so is in the package itself
 # Kernels are compiled for a scene by the compiler of the build, with these headers; without them built-in ones run.
 # mesa-vulkan-drivers has lavapipe, a Vulkan device where there is no GPU.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, libembree-dev, libglm-dev, mesa-vulkan-drivers")
+if(TARGET rl_python)
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS python3-numpy)
+endif()
 include(CPack)

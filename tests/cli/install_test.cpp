@@ -15,14 +15,15 @@ namespace fs = std::filesystem;
 using lint::CommandResult;
 using lint::runCommand;
 
+// Installs what every build has, without the Python module.
 class Installed : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
     if (std::string(RESTLAB_LIBRARY).empty()) GTEST_SKIP() << "this build has no librestlab.so";
-    const CommandResult result =
-        runCommand(RESTLAB_CMAKE " --install '" RESTLAB_BUILD_DIR "' --prefix '" +
-                   path("first").string() + "'");
+    const CommandResult result = runCommand(RESTLAB_CMAKE " --install '" RESTLAB_BUILD_DIR
+                                                          "' --component Unspecified --prefix '" +
+                                            path("first").string() + "'");
     ASSERT_EQ(result.status, 0) << result.output;
     fs::create_directories(path("moved"));
     fs::rename(path("first"), tree());
@@ -50,13 +51,20 @@ TEST_F(Installed, MovedTreeHasProgramPagesLibraryAndPackage) {
   EXPECT_NE(result.output.find("did you mean 'quickstart'?"), std::string::npos) << result.output;
   EXPECT_EQ(shell("restlab run cornell-box --dry-run").status, 2) << "a scene, and no suite";
 
+  // Pages of the manual and completion know the verbs and their options.
   EXPECT_TRUE(fs::exists(tree() / "share/man/man1/restlab-distance-field.1"));
-  result = shell(
-      "bash -c 'source moved/here/share/bash-completion/completions/restlab && "
-      "COMP_WORDS=(restlab run quickst) COMP_CWORD=2 && _restlab && echo $COMPREPLY'");
-  EXPECT_EQ(result.output, "quickstart\n");
+  EXPECT_NE(read("moved/here/share/man/man1/restlab-render.1").find("\n\\fB\\-\\-integrator\\fR"),
+            std::string::npos);
+  write("complete.sh", R"(source moved/here/share/bash-completion/completions/restlab
+complete() { COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _restlab; echo "${COMPREPLY[*]}"; }
+complete restlab run quickst
+complete restlab render corn
+complete restlab render x --integrator = restir_d
+complete restlab bias x --se
+)");
+  EXPECT_EQ(shell("bash complete.sh").output, "quickstart\ncornell-box\nrestir_di\n--seed --set\n");
 
-  // What the library shows is restlab's own.
+  // Names that the library shows are restlab's own.
   result = shell("nm -D --defined-only $(find moved/here -name librestlab.so) | awk '{print $3}'");
   std::istringstream symbols(result.output);
   size_t count = 0;
