@@ -3,44 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 
 #include "core/base/error.h"
 #include "core/frame/method_settings.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
-#include "experiments/runner/base/interrupt.h"
 #include "experiments/runner/reference/truth.h"
+#include "experiments/runner/results/measured_cost.h"
+#include "experiments/runner/run/block.h"
 #include "experiments/runner/run/block_label.h"
 #include "experiments/runner/run/experiment.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/run/suite_check.h"
-#include "experiments/runner/suite/picture.h"
 
 namespace restlab {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// Time the last of several frames: the first frame of a history is cheap, without reuse.
-constexpr uint32_t kProbeFrames = 4;
-
-// Returns the wall-clock seconds of a frame, including work between its passes.
-double secondsOfFrame(const PreparedScene& prepared, const SessionConfig& config,
-                      size_t& bytesPerPixel) {
-  Session session(prepared.scene, config);
-  bytesPerPixel = session.bytesPerPixel();
-  double seconds = 0.0;
-  for (uint32_t i = 0; i < kProbeFrames; ++i) {
-    throwIfInterrupted("nothing was written");
-    const auto start = std::chrono::steady_clock::now();
-    session.frame();
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  return seconds;
-}
 
 // Finds a reference that a run would use without further samples.
 std::optional<Reference> findReference(const Suite& suite, const PreparedScene& prepared,
@@ -73,49 +54,28 @@ struct ReferencesThere {
 };
 
 ReferencesThere referencesThere(const Suite& suite, const SuiteScene& scene,
-                                const PreparedScene& prepared, const SessionConfig& picture,
-                                const fs::path& out, const BlockResult& block) {
+                                const PreparedScene& prepared, const fs::path& out,
+                                BlockResult block) {
   ReferencesThere there;
-  if (!scene.reference.empty()) {
-    const fs::path found = findAsset(scene.reference);
-    there.hash = referenceHash(readReference(found.empty() ? fs::path(scene.reference) : found));
-    there.text = "a file";
+  std::vector<Reference> found;
+  for (const NeededReference& needed : renderedReferences(suite, scene, prepared, block)) {
+    auto reference = findReference(suite, needed.scene, needed.config, out, needed.label);
+    if (reference) found.push_back(std::move(*reference));
+    there.missing += reference ? 0 : 1;
+  }
+  if (there.missing > 0) {
+    there.text = there.missing > 1 ? fmt::format("{} to be made", there.missing) : "to be made";
     return there;
   }
-  ReferenceConfig config = referenceOfSuite(suite, picture);
-  if (scene.truth != Truth::rendered) {
-    const PreparedScene plain = plainOf(suite, scene, prepared, config);
-    std::optional<Reference> truth;
-    if (scene.truth == Truth::exact) {
-      truth = exactReference(scene.request, plain, config);
-    } else if (auto rendered =
-                   findReference(suite, plain, config, out,
-                                 plainLabel(scene.request, suite.cameraPathName, plain, config))) {
-      truth = multiplied(std::move(*rendered), radianceFactor(scene.request.scene));
-    }
-    there.missing = truth ? 0 : 1;
-    there.hash = truth ? referenceHash(*truth) : "";
-    there.text = truth ? originOf(*truth) : "to be made";
-    return there;
-  }
-  const std::string label = referenceLabel(suite, block);
-  if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
-  const std::optional<Reference> measured =
-      findReference(suite, sceneAt(block.lights, prepared, suite.warmupFrames), config, out, label);
-  there.missing = measured ? 0 : 1;
-  if (measured) there.text = fmt::format("{} spp", measured->spp);
-  if (measured) there.hash = referenceHash(*measured);
-  if (block.motion && suite.temporal && suite.warmupFrames > 0) {
-    config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
-    const auto before =
-        findReference(suite, sceneAt(block.lights, prepared, suite.warmupFrames - 1), config, out,
-                      label + "-before");
-    there.missing += before ? 0 : 1;
-    if (before) there.hash += referenceHash(*before);
-  }
-  if (there.missing == 0) return there;
-  there.hash.clear();
-  there.text = there.missing > 1 ? fmt::format("{} to be made", there.missing) : "to be made";
+  size_t next = 0;
+  takeReferences(
+      suite, scene, prepared, [&](const NeededReference&) { return std::move(found.at(next++)); },
+      block);
+  there.hash = referenceHash(block.reference);
+  if (block.referenceBefore) there.hash += referenceHash(*block.referenceBefore);
+  there.text = !scene.reference.empty()         ? "a file"
+               : scene.truth != Truth::rendered ? originOf(block.reference)
+                                                : fmt::format("{} spp", block.reference.spp);
   return there;
 }
 
@@ -129,14 +89,12 @@ struct Cost {
 
 // Returns the seconds for one reference, if known.
 std::optional<double> secondsOfReference(const Suite& suite, const PreparedScene& prepared,
-                                         SessionConfig path) {
-  path.camera = prepared.camera;
+                                         const BlockResult& block) {
   const ReferenceTarget& target = suite.target;
   std::optional<double> seconds;
   if (target.timeLimitS > 0.0) seconds = target.timeLimitS;
   if (target.spp == 0) return seconds;
-  size_t ignored = 0;
-  const double bySamples = double(target.spp) * secondsOfFrame(prepared, path, ignored);
+  const double bySamples = double(target.spp) * secondsOfSample(suite, prepared, block);
   return std::min(seconds.value_or(bySamples), bySamples);  // the target reached first
 }
 
@@ -144,17 +102,8 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
             BlockResult& block, const SuiteRequest& request,
             const std::vector<DeviceUse>& devices) {
   Cost cost;
-  const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
-  const double frames = double(suite.warmupFrames) + double(suite.timedFrames);
-  double runS = 0.0;
-  size_t bytesPerPixel = 0;
-  for (const SuiteMethod& method : suite.rendered()) {
-    size_t own = 0;
-    runS += frames * secondsOfFrame(prepared, methodConfig(suite, method, prepared, picture), own);
-    bytesPerPixel += own + hostBytesPerPixelOfMethod(suite);
-  }
-  const ReferencesThere references =
-      referencesThere(suite, scene, prepared, picture, request.out, block);
+  const MeasuredCost measured = measureRun(suite, prepared, block);
+  const ReferencesThere references = referencesThere(suite, scene, prepared, request.out, block);
   cost.reference = references.text;
   const JobStore store(request.out);
   for (uint32_t run = 0; references.missing == 0 && run < suite.runs; ++run) {
@@ -166,13 +115,14 @@ Cost costOf(const Suite& suite, const SuiteScene& scene, const PreparedScene& pr
   // own buffers.
   const size_t toMake = request.force ? suite.runs : suite.runs - cost.there;
   const size_t beside = std::max<size_t>(1, std::min<size_t>(suite.jobs, toMake));
-  cost.seconds = runS * double((toMake + beside - 1) / beside);
+  cost.seconds = measured.runS * double((toMake + beside - 1) / beside);
   const size_t pixels = size_t(block.width) * block.height;
-  cost.memoryMiB = double(pixels) *
-                   double(std::max(bytesPerPixel * beside, referenceBytesPerPixel(suite.target))) /
-                   (1024.0 * 1024.0);
+  cost.memoryMiB =
+      double(pixels) *
+      double(std::max(measured.bytesPerPixel * beside, referenceBytesPerPixel(suite.target))) /
+      (1024.0 * 1024.0);
   if (references.missing == 0) return cost;
-  const std::optional<double> referenceS = secondsOfReference(suite, prepared, picture);
+  const std::optional<double> referenceS = secondsOfReference(suite, prepared, block);
   cost.isLowerBound = !referenceS;
   cost.seconds += double(references.missing) * referenceS.value_or(0.0);
   return cost;
@@ -235,13 +185,7 @@ std::string planText(const std::vector<Suite>& points, const SuiteRequest& reque
     for (const Suite& point : points) {
       const Suite suite = ofScene(point, point.scenes[s]);
       for (const uint32_t component : suite.components) {
-        BlockResult block;
-        block.scene = named.name;
-        block.camera = prepared.cameraName;
-        block.component = component;
-        sceneResolution(suite, suite.scenes[s], prepared, block.width, block.height);
-        block.motion = motionOf(suite, suite.scenes[s], prepared);
-        block.lights = lightPhases(suite, prepared);
+        BlockResult block = blockOf(suite, suite.scenes[s], prepared, component);
         const Cost cost = costOf(suite, suite.scenes[s], prepared, block, request, devices);
         lines += fmt::format(
             "| {} | {}x{} | {} | {} of {} | {} | {}{} | {:.0f} MiB |\n", blockLabel(suite, block),

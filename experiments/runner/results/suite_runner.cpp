@@ -24,12 +24,12 @@
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/pace.h"
 #include "experiments/runner/base/print.h"
-#include "experiments/runner/reference/truth.h"
 #include "experiments/runner/results/clean.h"
 #include "experiments/runner/results/folder_lock.h"
 #include "experiments/runner/results/outputs.h"
 #include "experiments/runner/results/results_log.h"
 #include "experiments/runner/results/run_cost.h"
+#include "experiments/runner/run/block.h"
 #include "experiments/runner/run/block_label.h"
 #include "experiments/runner/run/block_masks.h"
 #include "experiments/runner/run/block_warnings.h"
@@ -38,7 +38,6 @@
 #include "experiments/runner/run/run_record.h"
 #include "experiments/runner/run/suite_check.h"
 #include "experiments/runner/suite/image_settings.h"
-#include "experiments/runner/suite/picture.h"
 
 namespace restlab {
 
@@ -217,14 +216,8 @@ class SuiteRun {
                     uint32_t component) {
     // Keep the suite until the end: the block's rows point to it.
     const Suite& suite = ofScenes_.emplace_back(ofScene(points_[point], scene));
-    BlockResult block;
-    block.scene = scene.name;
-    block.camera = prepared.cameraName;
-    block.component = component;
-    sceneResolution(suite, scene, prepared, block.width, block.height);
+    BlockResult block = blockOf(suite, scene, prepared, component);
     block.startupMs = checks_[point].startupMs[scene.name];
-    block.motion = motionOf(suite, scene, prepared);
-    block.lights = lightPhases(suite, prepared);
     if (!obtain(suite, scene, prepared, block)) return false;
     nlohmann::ordered_json& plan = plan_.at(next_++);
     plan = planOf(suite, block);
@@ -383,54 +376,25 @@ class SuiteRun {
     }
   }
 
+  // Returns false after an interrupt.
   bool obtain(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
               BlockResult& block) {
-    if (!scene.reference.empty()) {
-      // checkSuites() has checked its configuration.
-      const fs::path found = findAsset(scene.reference);
-      block.reference = readReference(found.empty() ? fs::path(scene.reference) : found);
-      block.referenceFile =
-          fs::absolute(found.empty() ? fs::path(scene.reference) : found).string();
-      return true;
-    }
-    const std::string label = referenceLabel(suite, block);
+    const fs::path folder = request_.out / "references";
     try {
-      const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
-      ReferenceConfig config = referenceOfSuite(suite, picture);
-      const fs::path folder = request_.out / "references";
-      if (scene.truth != Truth::rendered) {
-        block.reference = obtainTruth(suite, scene, prepared, config, folder);
-        block.referenceFile = "references/" + label + ".exr";
-        writeReference(request_.out / block.referenceFile, block.reference);
-        return true;
-      }
-      if (block.motion) config.camera = cameraAt(*block.motion, suite.warmupFrames);
-      block.reference = obtainReference(sceneAt(block.lights, prepared, suite.warmupFrames), config,
-                                        suite.target, folder, label);
-      if (block.motion && suite.temporal && suite.warmupFrames > 0) {
-        config.camera = cameraAt(*block.motion, suite.warmupFrames - 1);
-        block.referenceBefore =
-            obtainReference(sceneAt(block.lights, prepared, suite.warmupFrames - 1), config,
-                            suite.target, folder, label + "-before");
-      }
+      takeReferences(
+          suite, scene, prepared,
+          [&](const NeededReference& needed) {
+            return obtainReference(needed.scene, needed.config, suite.target, folder, needed.label);
+          },
+          block);
     } catch (const Error& error) {
       if (error.code() != ExitCode::interrupted) throw;
       logInfo(error.what());
       return false;
     }
-    block.referenceFile = "references/" + label + ".exr";
+    if (scene.reference.empty() && scene.truth != Truth::rendered)
+      writeReference(request_.out / block.referenceFile, block.reference);
     return true;
-  }
-
-  static Reference obtainTruth(const Suite& suite, const SuiteScene& scene,
-                               const PreparedScene& prepared, ReferenceConfig config,
-                               const fs::path& folder) {
-    const PreparedScene plain = plainOf(suite, scene, prepared, config);
-    if (scene.truth == Truth::exact) return exactReference(scene.request, plain, config);
-    return multiplied(
-        obtainReference(plain, config, suite.target, folder,
-                        plainLabel(scene.request, suite.cameraPathName, plain, config)),
-        radianceFactor(scene.request.scene));
   }
 
   // Lists the methods that --methods has left.
