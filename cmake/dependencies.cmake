@@ -20,6 +20,7 @@ rl_need_library(fmt libfmt-dev CONFIG)
 rl_need_library(Boost libboost-dev CONFIG) # header-only Boost.Math distributions
 rl_need_library(pugixml libpugixml-dev CONFIG)
 rl_need_library(ZLIB zlib1g-dev)
+rl_need_library(LibArchive libarchive-dev)
 rl_need_library(OpenSSL libssl-dev COMPONENTS Crypto)
 # The package files of glslang end the configuring where these two are missing.
 rl_need_program(GLSLANG_VALIDATOR glslang-tools glslangValidator)

@@ -131,6 +131,8 @@ int main(int argc, char** argv) {
   std::vector<Verb> verbs = {
       {"run", addRunVerb(app)},         {"status", addStatusVerb(app)},
       {"report", addReportVerb(app)},   {"clean", addCleanVerb(app)},
+      {"plan", addPlanVerb(app)},       {"work", addWorkVerb(app)},
+      {"collect", addCollectVerb(app)}, {"submit", addSubmitVerb(app)},
       {"render", addRenderVerb(app)},   {"reference", addReferenceVerb(app)},
       {"compare", addCompareVerb(app)}, {"figure", addFigureVerb(app)},
       {"denoise", addDenoiseVerb(app)}, {"info", addInfoVerb(app)},

@@ -8,6 +8,7 @@
 #include "experiments/cli/verbs.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
+#include "experiments/runner/cluster/plan_status.h"
 #include "experiments/runner/results/clean.h"
 #include "experiments/runner/results/results_folder.h"
 #include "experiments/runner/run/job.h"
@@ -31,6 +32,14 @@ size_t countThere(const PlannedBlock& block, const std::vector<std::string>& the
 }
 
 void showStatus(const FolderOptions& options) {
+  if (isPlanFolder(options.folder)) {
+    const Json status = planStatus(options.folder, readPlan(options.folder));
+    if (options.json)
+      printJsonText(status.dump(2));
+    else
+      printText(planStatusText(status));
+    return;
+  }
   const ResultsFolder results = openResults(options.folder);
   const std::vector<std::string> there = JobStore(options.folder).keys();
   Json blocks = Json::array();

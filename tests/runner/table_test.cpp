@@ -1,6 +1,7 @@
 // Tables of rows with known numbers: headings, columns and notes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -33,6 +34,28 @@ TEST_F(TableTest, TheBaselineIsNamed) {
   EXPECT_NE(document.find("MSE of gi / MSE"), std::string::npos) << document;
   EXPECT_EQ(document.find("MSE of path"), std::string::npos) << document;
   EXPECT_NE(document.find("efficiency against gi"), std::string::npos) << document;
+}
+
+// Means over unlike machines are of no machine; within a run methods took turns on one.
+TEST_F(TableTest, UnlikeMachinesLeaveRatiosOfTimesAlone) {
+  for (MethodResult& method : block_.methods)
+    for (RunResult& run : method.runs) run.machine = "one";
+  compareMachines(block_);
+  const auto alike = summarise(suite_, block_);
+  EXPECT_EQ(alike[1].timeMsMedian, 24.2);
+  for (MethodResult& method : block_.methods) method.runs[2].machine = "other";
+  block_.methods[1].runs[0].accumulated = {{1, 2.5, {}}};
+  compareMachines(block_);
+  EXPECT_TRUE(std::isnan(block_.methods[1].runs[0].accumulated[0].timeMs));
+  block_.methods[1].runs[0].accumulated.clear();
+  const auto rows = summarise(suite_, block_);
+  EXPECT_TRUE(std::isnan(rows[1].timeMsMedian));
+  EXPECT_EQ(rows[1].timeRatio.value, alike[1].timeRatio.value);
+  EXPECT_TRUE(rows[1].passes.empty());
+  const std::string table = blockTable(suite_, rows);
+  EXPECT_NE(table.find("unlike machines (one; other)"), std::string::npos) << table;
+  EXPECT_NE(table.find("| 1.10x [1.10, 1.10] |"), std::string::npos) << table;
+  EXPECT_EQ(table.find(" ms"), std::string::npos) << table;
 }
 
 // A ratio whose interval reaches 0 is called unbounded in every output.

@@ -52,11 +52,14 @@ fs::path resolveTarget(const fs::path& file) {
   return target;
 }
 
-// Makes a name that is unique among processes by pid and within one by a counter.
+// Makes a name that is unique among machines by theirs, among processes by pid and within one by a
+// counter.
 fs::path temporaryNameFor(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
+  char machine[65] = {};
+  if (::gethostname(machine, sizeof(machine) - 1) != 0) machine[0] = '\0';
   fs::path name = target;
-  name += fmt::format(".tmp-{}-{}", ::getpid(), counter++);
+  name += fmt::format(".tmp-{}-{}-{}", ::getpid(), counter++, machine);
   return name;
 }
 

@@ -77,6 +77,11 @@ std::string cpuModel() {
   return "unknown";
 }
 
+std::string nodeName() {
+  char name[65] = {};
+  return gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
+}
+
 std::string utcNow() {
   const std::time_t now = std::time(nullptr);
   std::tm utc = {};
@@ -120,7 +125,8 @@ nlohmann::ordered_json machineJson() {
   if (getloadavg(load, 3) < 1) load[0] = -1.0;
   const double memoryMiB =
       double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-  return {{"cpu", cpuModel()},
+  return {{"node", nodeName()},
+          {"cpu", cpuModel()},
           {"cores", std::thread::hardware_concurrency()},
           {"governor", firstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
           {"load_1min", load[0]},

@@ -37,6 +37,7 @@ nlohmann::ordered_json provenanceJson();
 
 std::string librariesText();  // "Embree 3.13.5, TBB 2021.8.0, ..."
 std::string cpuModel();       // "unknown" if /proc/cpuinfo has no name
+std::string nodeName();       // of this machine
 std::string utcNow();         // "2024-05-01T12:00:00Z"
 double peakResidentMiB();     // of this process
 double processCpuSeconds();   // user + system, of this process

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/truth.h"
@@ -38,13 +39,14 @@ uint64_t bytesOf(const fs::path& path) {
 
 // Matches the names that JobStore and AtomicFile give. Jobs are written under the folder's lock,
 // which this process holds. Files may also be written by `render` or `figure`: their names have the
-// process number, and only those of dead processes match.
+// process number and the machine, and only those of dead processes of this one match.
 bool isUnfinished(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name.rfind(".unfinished-", 0) == 0) return true;
-  static const std::regex names(R"(.+\.tmp-([0-9]+)-[0-9]+)");
+  static const std::regex names(R"(.+\.tmp-([0-9]+)-[0-9]+(-.*)?)");
   std::smatch match;
   if (!std::regex_match(name, match, names)) return false;
+  if (match[2].matched && match[2].str() != "-" + nodeName()) return false;
   const std::string process = match[1].str();
   return process.size() > 9 || (kill(pid_t(std::stol(process)), 0) != 0 && errno == ESRCH);
 }

@@ -159,11 +159,14 @@ void Outputs::write(const Suite& suite, const nlohmann::ordered_json& record, bo
   for (const Block& block : blocks_) text += blockTable(*block.suite, block.rows);
   const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
                                       [](const DeviceUse& use) { return use.backend == "vulkan"; });
+  // The machine of the jobs: a folder may have been collected elsewhere.
+  const nlohmann::ordered_json machine = record.value("machine", machineJson());
   text += fmt::format(
       "{}, {} cores, {}, {} {}; times are of the passes of a frame by the "
       "steady clock{}, without metrics and files.\n",
-      cpuModel(), machineJson()["cores"].dump(), librariesText(), buildInfo().compiler,
-      buildInfo().buildType, usesVulkan ? " (vulkan: by the device's timestamps)" : "");
+      machine.value("cpu", cpuModel()), machine.at("cores").dump(), librariesText(),
+      buildInfo().compiler, buildInfo().buildType,
+      usesVulkan ? " (vulkan: by the device's timestamps)" : "");
   for (const DeviceUse& use : devices_)
     text += fmt::format("\n{}: {}; rays by {}.\n", use.backend, use.device, use.rayTracing);
   writeTextFile(out_ / "table.md", withoutControls(text, true));

@@ -109,6 +109,7 @@ LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& planned)
       logWarning(fmt::format("{}: is missing or damaged; left out", store.folderOf(key).string()));
     }
   }
+  compareMachines(block);
   return loaded;
 }
 

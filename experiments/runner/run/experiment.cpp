@@ -353,4 +353,26 @@ void addJob(const Suite& suite, const JobData& job, BlockResult& block) {
   }
 }
 
+void compareMachines(BlockResult& block) {
+  // Compare within a method: a table may have methods on several devices.
+  std::vector<std::string> unlike;
+  for (const MethodResult& method : block.methods) {
+    std::vector<std::string> own;
+    for (const RunResult& run : method.runs) {
+      const bool isKnown = std::find(own.begin(), own.end(), run.machine) != own.end();
+      if (!run.timesMs.empty() && !run.machine.empty() && !isKnown) own.push_back(run.machine);
+    }
+    if (own.size() > 1 && unlike.empty()) unlike = own;
+  }
+  block.unlikeMachines = unlike;
+  if (unlike.empty()) return;
+  constexpr double kForgotten = std::numeric_limits<double>::quiet_NaN();
+  for (MethodResult& method : block.methods) {
+    for (RunResult& run : method.runs) {
+      for (AgedError& aged : run.aged) aged.timeMs = kForgotten;
+      for (AccumulatedError& point : run.accumulated) point.timeMs = kForgotten;
+    }
+  }
+}
+
 }  // namespace restlab

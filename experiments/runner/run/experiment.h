@@ -70,6 +70,7 @@ struct AgedError {
 struct RunResult {
   size_t method = 0;
   uint32_t run = 0, seed = 0;
+  std::string machine;                        // processor and device; "": not recorded
   FrameError measured;                        // of the first frame after the warm-up
   std::vector<AgedError> aged;                // at the suite's ages
   std::vector<AccumulatedError> accumulated;  // after 1, 2, 4, ... frames, if the suite asks for it
@@ -114,6 +115,9 @@ struct BlockResult {
   std::vector<uint8_t> withoutLights;  // one byte per pixel, 1 if no light is seen directly
   std::vector<PixelMask> masks;        // of the suite; an empty mask belongs to another scene
   std::vector<MethodResult> methods;   // in the suite's order
+  // Processors or devices of runs, if they were made on unlike ones: only ratios of times say
+  // something then.
+  std::vector<std::string> unlikeMachines;
 };
 
 // Contents of a job folder: one run of every rendered method, or of the rows of images.
@@ -153,6 +157,10 @@ class BlockExecutor {
 
 // Adds the job's runs to the block. Throws std::exception if data are missing.
 void addJob(const Suite& suite, const JobData& job, BlockResult& block);
+
+// Sets `unlikeMachines`. Forgets times of curves where machines are unlike: their means would be of
+// no machine.
+void compareMachines(BlockResult& block);
 
 // Computes the errors of `image`, against the halves of the reference if it has them.
 // `withoutLights`: see BlockResult; empty: all pixels.

@@ -308,6 +308,10 @@ RunResult runOfLines(const std::vector<Json>& lines, MethodResult& method) {
     method.use.backend = line.at("backend").get<std::string>();
     method.use.device = line.at("device").get<std::string>();
     method.use.rayTracing = line.at("ray_tracing").get<std::string>();
+    const Json machine = line.value("provenance", Json::object()).value("machine", Json::object());
+    const std::string processor =
+        method.use.backend == "cpu" ? machine.value("cpu", "unknown processor") + ", " : "";
+    run.machine = processor + method.use.device;
   }
   if (!isWhole) throw std::invalid_argument("no line of kind run or image");
   return run;

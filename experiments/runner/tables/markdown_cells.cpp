@@ -77,8 +77,9 @@ std::string timeAndRatioCell(const Columns& columns, const Column& column,
   const std::string time = timeCell(columns, column, row);
   const Column& ratio = columnAt(columns, "time_ratio");
   const Interval of = numberOf(ratio, row);
-  const bool isAlone = std::isnan(numberOf(column, row).value) || isItself(ratio, row);
-  return isAlone || std::isnan(of.value) ? time : fmt::format("{} ({})", time, timesWithEnds(of));
+  if (isItself(ratio, row) || std::isnan(of.value)) return time;
+  const bool isRatioAlone = std::isnan(numberOf(column, row).value);
+  return isRatioAlone ? timesWithEnds(of) : fmt::format("{} ({})", time, timesWithEnds(of));
 }
 
 std::string timesCell(const Columns&, const Column& column, const MethodSummary& row) {

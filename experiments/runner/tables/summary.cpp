@@ -312,6 +312,17 @@ void compareAges(const Suite& suite, const BlockResult& block, size_t m,
   if (!own.runs->front().aged.empty()) row.ages = agesOf(own, runsOf(suite.baselineOf(m)), average);
 }
 
+// Leaves ratios of times alone, which are of runs on one machine each.
+void noteMachines(const BlockResult& block, MethodSummary& row) {
+  if (block.unlikeMachines.empty() || row.method->images) return;
+  row.flags.push_back(fmt::format(
+      "its runs were made on unlike machines ({}): only ratios of times within a run are given",
+      fmt::join(block.unlikeMachines, "; ")));
+  row.timeMsMedian = row.timeMsP95 = row.timeRatioOfMedians = row.sceneMs = kUnknown;
+  row.passes.clear();
+  row.scenePasses.clear();
+}
+
 }  // namespace
 
 std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& block) {
@@ -358,6 +369,7 @@ std::vector<MethodSummary> summarise(const Suite& suite, const BlockResult& bloc
     if (first != m && rowOf[first] < rows.size())
       row.timeToFirstBackend = timeAgainst(*row.result, block.methods[first]);
   }
+  for (MethodSummary& row : rows) noteMachines(block, row);
   return rows;
 }
 

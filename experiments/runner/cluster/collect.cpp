@@ -1,0 +1,220 @@
+#include "experiments/runner/cluster/collect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/control_characters.h"
+#include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
+#include "experiments/runner/base/build_info.h"
+#include "experiments/runner/base/files.h"
+#include "experiments/runner/base/log.h"
+#include "experiments/runner/cluster/task_file.h"
+#include "experiments/runner/cluster/tasks_there.h"
+#include "experiments/runner/results/folder_lock.h"
+#include "experiments/runner/results/results_folder.h"
+#include "experiments/runner/results/results_log.h"
+#include "experiments/runner/run/job.h"
+#include "experiments/runner/run/run_record.h"
+
+namespace restlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Collector {
+ public:
+  Collector(const fs::path& folder, const Plan& plan, const fs::path& out)
+      : folder_(folder), plan_(plan), out_(out), store_(out) {}
+
+  Collected collect() {
+    makeWritableDirectory(out_);
+    isElsewhere_ = !fs::equivalent(out_, folder_);
+    if (isElsewhere_) requireOwnFolder();
+    Json blocks = Json::array();
+    {
+      const FolderLock lock(out_);
+      makeWritableDirectory(out_ / "references");
+      makeWritableDirectory(out_ / "jobs");
+      if (isElsewhere_) {
+        fs::copy_file(folder_ / "suite.toml", out_ / "suite.toml",
+                      fs::copy_options::overwrite_existing);
+      }
+      ResultsLog log(out_ / "results.jsonl");
+      const TasksThere there = tasksThere(folder_, plan_);
+      collected_.tasks = plan_.tasks();
+      uint64_t index = 0;
+      for (const TaskGroup& group : plan_.groups) {
+        Json block;
+        for (uint64_t number = 0; number < group.tasks(); ++number, ++index) {
+          // A merged reference needs no chunk any more.
+          if (group.isReference) continue;
+          const Task task = plan_.taskOf(group, number, index);
+          if (!there.isDone[index] || !take(task, log, block)) collected_.missing.push_back(index);
+        }
+        if (!block.is_null()) blocks.push_back(std::move(block));
+      }
+      writeRecord(std::move(blocks));
+    }
+    collected_.tables = remakeOutputs(out_);
+    return std::move(collected_);
+  }
+
+ private:
+  void requireOwnFolder() const {
+    std::error_code status;
+    if (!fs::exists(out_ / "run.json", status)) return;
+    const ResultsFolder there = openResults(out_);
+    if (there.record.value("plan_id", "") == plan_.id) return;
+    failInput(fmt::format("{}: has results of something else; choose another folder with -o",
+                          out_.string()));
+  }
+
+  // Adds the task's jobs to the folder and its block. Returns false, with a line, if its file is
+  // damaged.
+  bool take(const Task& task, ResultsLog& log, Json& block) {
+    const fs::path file = resultFile(folder_, plan_, task);
+    try {
+      const Json head = readTaskHead(file);
+      if (head.at("plan").get<std::string>() != plan_.id ||
+          head.at("task").get<uint64_t>() != task.index)
+        failInput(fmt::format("{}: is of another plan or task", file.string()));
+      unpack(file, head);
+      std::vector<std::pair<std::string, JobData>> jobs;
+      for (const char* list : {"jobs", "images"}) {
+        for (const Json& key : head.at(list)) {
+          std::optional<JobData> job = store_.load(key.get<std::string>());
+          if (!job) failInput(fmt::format("{}: its job {} is damaged", file.string(), key.dump()));
+          jobs.emplace_back(key.get<std::string>(), std::move(*job));
+        }
+      }
+      takeReference(head.at("reference").get<std::string>());
+      for (const auto& [key, job] : jobs) {
+        log.add(key, job);
+        noteMachines(job);
+      }
+      for (const Json& use : head.at("devices")) devices_.insert(use.dump());
+      addTo(block, head);
+      return true;
+    } catch (const Error& error) {
+      if (std::string(error.what()).rfind(file.string(), 0) != 0) throw;
+      logWarning(fmt::format("{}; `restlab work {} --index {}` does it anew", error.what(),
+                             folder_.string(), task.index));
+    } catch (const nlohmann::json::exception& error) {
+      logWarning(fmt::format("{}: {}; left out", file.string(), error.what()));
+    }
+    return false;
+  }
+
+  // Unpacks beside the jobs, and gives each its name by a rename once it is whole.
+  void unpack(const fs::path& file, const Json& head) {
+    bool isThere = true;
+    for (const char* list : {"jobs", "images"})
+      for (const Json& key : head.at(list))
+        isThere = isThere && store_.record(key.get<std::string>()).has_value();
+    if (isThere) return;
+    const fs::path unfinished = out_ / "jobs" / ".unfinished-task";
+    std::error_code status;
+    fs::remove_all(unfinished, status);
+    unpackTask(file, unfinished);
+    for (const fs::directory_entry& entry : fs::directory_iterator(unfinished)) {
+      const fs::path job = out_ / "jobs" / entry.path().filename();
+      fs::remove_all(job, status);
+      fs::rename(entry.path(), job, status);
+      if (status) failInput(fmt::format("{}: cannot be made: {}", job.string(), status.message()));
+    }
+    fs::remove_all(unfinished, status);
+  }
+
+  void takeReference(const std::string& name) const {
+    if (!isElsewhere_ || fs::path(name).is_absolute()) return;
+    std::error_code status;
+    if (fs::exists(out_ / name, status)) return;
+    writeReference(out_ / name, readReference(folder_ / name));
+  }
+
+  void noteMachines(const JobData& job) {
+    for (const JobMethod& method : job.methods) {
+      for (const Json& line : method.lines) {
+        const Json machine = line.at("provenance").at("machine");
+        if (machine_.is_null()) machine_ = machine;
+        const auto add = [&](const char* key, std::vector<std::string>& names) {
+          const std::string name = machine.value(key, "");
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        };
+        add("cpu", processors_);
+        add("node", nodes_);
+      }
+    }
+  }
+
+  static void addTo(Json& block, const Json& head) {
+    if (block.is_null()) {
+      block = {{"jobs", Json::array()}, {"images", Json::array()}, {"warnings", Json::array()}};
+      for (const char* key :
+           {"point", "scene", "camera", "component", "width", "height", "reference"})
+        block[key] = head.at(key);
+    }
+    for (const char* key : {"jobs", "images"})
+      for (const Json& item : head.at(key)) block[key].push_back(item);
+    for (const Json& line : head.at("warnings")) {
+      Json& lines = block["warnings"];
+      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    }
+  }
+
+  void writeRecord(Json blocks) {
+    Json devices = Json::array();
+    for (const std::string& text : devices_) {
+      const Json use = Json::parse(text);
+      devices.push_back(
+          {{"backend", use.at(0)}, {"device", use.at(1)}, {"ray_tracing", use.at(2)}});
+    }
+    Json machine = machine_.is_null() ? machineJson() : machine_;
+    if (!processors_.empty()) machine["cpu"] = fmt::format("{}", fmt::join(processors_, "; "));
+    if (!nodes_.empty()) machine["node"] = fmt::format("{}", fmt::join(nodes_, ", "));
+    const bool isFinished = collected_.missing.empty();
+    const Json record = {
+        {"schema", kResultsSchema},
+        {"status", isFinished ? "finished"
+                              : fmt::format("{} of {} tasks are missing", collected_.missing.size(),
+                                            collected_.tasks)},
+        {"suite", plan_.suite},
+        {"file", plan_.file},
+        {"argv", plan_.argv},
+        {"methods", plan_.methods},
+        {"started", plan_.planned},
+        {"written", utcNow()},
+        {"plan_id", plan_.id},
+        {"build", plan_.build},
+        {"machine", machine},
+        {"devices", devices},
+        {"skipped", plan_.skipped},
+        {"plan", std::move(blocks)},
+        {"peak_resident_mib", peakResidentMiB()}};
+    writeTextFile(out_ / "run.json", jsonWithoutControls(record.dump(2)) + "\n");
+  }
+
+  const fs::path& folder_;
+  const Plan& plan_;
+  const fs::path& out_;
+  JobStore store_;
+  bool isElsewhere_ = false;
+  Collected collected_;
+  std::set<std::string> devices_;
+  std::vector<std::string> processors_, nodes_;
+  Json machine_;
+};
+
+}  // namespace
+
+Collected collectResults(const fs::path& folder, const Plan& plan, const fs::path& out) {
+  return Collector(folder, plan, out).collect();
+}
+
+}  // namespace restlab
