@@ -236,12 +236,13 @@ std::vector<uint64_t> missingChunks(const fs::path& folder, const Plan& plan, si
   std::vector<uint64_t> missing;
   uint64_t index = 0;
   for (const TaskGroup& group : plan.groups) {
-    for (uint64_t number = 0; number < group.tasks(); ++number, ++index) {
-      if (!group.isReference || group.of != reference) continue;
+    const bool isOwn = group.isReference && group.of == reference;
+    for (uint64_t number = 0; isOwn && number < group.tasks(); ++number) {
       std::error_code status;
-      const fs::path file = resultFile(folder, plan, plan.taskOf(group, number, index));
-      if (!fs::exists(file, status)) missing.push_back(index);
+      const Task task = plan.taskOf(group, number, index + number);
+      if (!fs::exists(resultFile(folder, plan, task), status)) missing.push_back(task.index);
     }
+    index += group.tasks();
   }
   return missing;
 }
