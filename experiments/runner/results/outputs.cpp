@@ -160,7 +160,8 @@ void Outputs::write(const Suite& suite, const nlohmann::ordered_json& record, bo
   const bool usesVulkan = std::any_of(devices_.begin(), devices_.end(),
                                       [](const DeviceUse& use) { return use.backend == "vulkan"; });
   // The machine of the jobs: a folder may have been collected elsewhere.
-  const nlohmann::ordered_json machine = record.value("machine", machineJson());
+  const bool isKnown = record.is_object() && record.contains("machine");
+  const nlohmann::ordered_json machine = isKnown ? record.at("machine") : machineJson();
   text += fmt::format(
       "{}, {} cores, {}, {} {}; times are of the passes of a frame by the "
       "steady clock{}, without metrics and files.\n",
