@@ -78,6 +78,12 @@ class SlurmTest : public ProgramTest {
 
 TEST_F(SlurmTest, AnArrayGivesTheTablesOfRun) {
   submit("--chunk 2 --chunk-spp 1 --set reference.spp=1500 --set timing=false");
+  const ProgramResult refused = run(
+      "submit suite.toml -o refused --engine slurm --estimate none --sbatch --partition=absent");
+  EXPECT_EQ(refused.code, 3);
+  ASSERT_EQ(refused.errors().size(), 1u) << refused.err;
+  EXPECT_NE(refused.errors()[0].find("sbatch refuses it: "), std::string::npos) << refused.err;
+  EXPECT_NE(refused.errors()[0].find("partition"), std::string::npos) << refused.err;
   expectError(run("submit shared --engine slurm"), 2, {"in the queue already", "restlab status"});
   waitUntil("results", [&] { return isFinished(); });
   fs::remove_all(path("cache/restlab/references"));
