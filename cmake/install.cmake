@@ -14,7 +14,7 @@ endforeach()
 install(TARGETS restlab RUNTIME)
 install(DIRECTORY experiments/suites experiments/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/restlab)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff TYPE DOC)
-install(DIRECTORY docs/ TYPE DOC FILES_MATCHING PATTERN "*.md" PATTERN figures EXCLUDE)
+install(DIRECTORY docs/ TYPE DOC FILES_MATCHING PATTERN "*.md" PATTERN "*.py" PATTERN figures EXCLUDE)
 install(DIRECTORY experiments/example TYPE DOC)
 # Pages of the manual and the completion of bash: the program itself writes them.
 install(CODE "set(data \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
