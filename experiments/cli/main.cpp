@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "core/backend/kernel_choice.h"
 #include "experiments/cli/verbs.h"
@@ -40,7 +41,9 @@ std::vector<std::string> optionNames(const CLI::App& verb) {
 // Rejects unknown options before any other error in the command line is reported.
 void checkOptionNames(const CLI::App& verb, const std::vector<std::string>& arguments) {
   const std::vector<std::string> known = optionNames(verb);
+  bool isOfOther = false;  // the value of --sbatch: options of another program
   for (const std::string& argument : arguments) {
+    if (std::exchange(isOfOther, argument == "--sbatch")) continue;
     if (argument == "--") return;
     if (argument.empty()) failUsage(fmt::format("{}: an argument is empty", verb.get_name()));
     const bool isLong = argument.rfind("--", 0) == 0;

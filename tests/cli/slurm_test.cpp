@@ -78,8 +78,8 @@ class SlurmTest : public ProgramTest {
 
 TEST_F(SlurmTest, AnArrayGivesTheTablesOfRun) {
   submit("--chunk 2 --chunk-spp 1 --set reference.spp=1500 --set timing=false");
-  const ProgramResult refused = run(
-      "submit suite.toml -o refused --engine slurm --estimate none --sbatch --partition=absent");
+  const ProgramResult refused = run({"submit", "suite.toml", "-o", "refused", "--engine", "slurm",
+                                     "--estimate", "none", "--sbatch", "--partition=absent -c 1"});
   EXPECT_EQ(refused.code, 3);
   ASSERT_EQ(refused.errors().size(), 1u) << refused.err;
   EXPECT_NE(refused.errors()[0].find("sbatch refuses it: "), std::string::npos) << refused.err;
