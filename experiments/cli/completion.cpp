@@ -152,7 +152,8 @@ std::string bashCompletion(const CLI::App& app, const std::vector<std::string>& 
       if (!takesValue(*option)) continue;
       takes.insert(takes.end(), names.begin(), names.end());
       // Settings of a suite and parameters of a closure are no parameters of methods.
-      const bool isOther = option->check_lname("set") && (name == "run" || name == "bsdf");
+      const bool isOther = option->check_lname("set") &&
+                           (name == "bsdf" || verb->get_option_no_throw("suite") != nullptr);
       const CompletionWords its = isOther ? CompletionWords{} : completionsOf(*option, registries);
       for (const std::string& one : names)
         if (!its.empty()) byValues[its].push_back(fmt::format("'{} {}'", name, one));
