@@ -29,6 +29,8 @@ if(RESTLAB_PYTHON)
     add_subdirectory(experiments/python)
   elseif(NOT RESTLAB_PYTHON STREQUAL "AUTO")
     message(NOTICE "${_why}") # ./lab looks for its beginning
+    # Else every later call would stop here, too.
+    set(RESTLAB_PYTHON AUTO CACHE STRING "Build the Python module: AUTO, ON or OFF" FORCE)
     message(FATAL_ERROR "RESTLAB_PYTHON is ON, but the module cannot be built")
   endif()
 endif()

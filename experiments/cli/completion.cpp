@@ -100,6 +100,7 @@ _restlab() {{
       program=$(type -P -- "${{COMP_WORDS[0]}}")
       program=$(readlink -f -- "$program")
       for words in "${{program%/bin/*}}"/share/restlab/suites/*.toml; do
+        [[ -e $words ]] || continue
         words=${{words##*/}}
         COMPREPLY+=($(compgen -W "${{words%.toml}}" -- "$word"))
       done

@@ -18,6 +18,9 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kLeastYfov = 0.01, kMostYfov = 179.0;  // degrees
 // The sine of the angle between view and up below which right is not defined.
 constexpr double kLeastSine = 1e-6;
+// Largest number of a vector: squares of float32 beyond it are infinite, and rays have no
+// direction.
+constexpr double kMostOfVector = 1e15;
 
 glm::dvec3 vectorOf(const py::handle& object, const std::string& name) {
   glm::dvec3 vector(0.0);
@@ -28,11 +31,12 @@ glm::dvec3 vectorOf(const py::handle& object, const std::string& name) {
     const double number = PyFloat_AsDouble(item.ptr());
     if (PyErr_Occurred()) PyErr_Clear(), isGood = false;
     vector[i] = number;
-    isGood = isGood && std::isfinite(number);
+    isGood = isGood && std::abs(number) <= kMostOfVector;
   }
   if (!isGood)
-    failUsage(fmt::format("{} {}: must be three numbers, for example (0.0, 1.0, 4.0)", name,
-                          py::repr(object).cast<std::string>()));
+    failUsage(
+        fmt::format("{} {}: must be three numbers of at most 1e15, for example (0.0, 1.0, 4.0)",
+                    name, py::repr(object).cast<std::string>()));
   return vector;
 }
 

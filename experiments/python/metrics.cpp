@@ -47,6 +47,10 @@ std::vector<Image> runsOf(const py::object& images, const std::string& metric) {
 double biasRms(const std::vector<Image>& runs, const Reference& reference, const PixelMask& mask) {
   BiasRuns all;
   for (const Image& run : runs) {
+    for (const Image* other = runs.data(); other != &run; ++other) {
+      if (other->pixels == run.pixels)
+        failUsage("bias_rms: two of the images are equal; it needs independent runs");
+    }
     requireSizeOf(run, reference.mean);
     all.add(run);
   }

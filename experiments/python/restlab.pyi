@@ -5,7 +5,7 @@ restlab.Error, with one line. docs/python.md has examples.
 """
 
 from os import PathLike
-from typing import Any, Iterable, Mapping, Sequence, Union
+from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -193,7 +193,7 @@ def metric(
 def metrics(
     image: npt.NDArray[np.floating[Any]],
     reference: Reference | npt.NDArray[np.floating[Any]],
-    names: Iterable[str] | None = None,
+    names: Sequence[str] | None = None,
     *,
     mask: npt.NDArray[np.bool_] | None = None,
     pixels_per_degree: float = ...,

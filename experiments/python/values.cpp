@@ -95,8 +95,7 @@ ParameterValue valueOf(const py::handle& object, const std::string& name) {
 std::string textOf(const py::handle& object, const std::string& name) {
   if (py::isinstance<py::str>(object)) return object.cast<std::string>();
   if (py::hasattr(object, "__fspath__")) {
-    const py::object path = py::module_::import("os").attr("fsdecode")(object);
-    return path.cast<std::string>();
+    return py::module_::import("os").attr("fsencode")(object).cast<std::string>();
   }
   failUsage(fmt::format("{}: is of type {}; must be a text or a path", name, typeOf(object)));
 }

@@ -141,6 +141,10 @@ void expectRigid(const Members& members, const std::array<double, 16>& m) {
   isRigid =
       isRigid && determinant > 0.0 && m[3] == 0.0 && m[7] == 0.0 && m[11] == 0.0 && m[15] == 1.0;
   if (!isRigid) members.fail("'to_world' must turn and move, and nothing else");
+  // Squares of float32 beyond it are infinite, and rays have no direction.
+  constexpr double kFarthest = 1e15;
+  if (std::max({std::abs(m[12]), std::abs(m[13]), std::abs(m[14])}) > kFarthest)
+    members.fail("'to_world' must move by at most 1e15");
 }
 
 ViewCommand commandOf(Members& members) {

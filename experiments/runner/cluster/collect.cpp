@@ -88,9 +88,16 @@ class Collector {
       std::vector<std::pair<std::string, JobData>> jobs;
       for (const char* list : {"jobs", "images"}) {
         for (const Json& key : head.at(list)) {
-          std::optional<JobData> job = store_.load(key.get<std::string>());
-          if (!job) failInput(fmt::format("{}: its job {} is damaged", file.string(), key.dump()));
-          jobs.emplace_back(key.get<std::string>(), std::move(*job));
+          const std::string name = key.get<std::string>();
+          std::optional<JobData> job = store_.load(name);
+          if (!job) {
+            std::error_code status;
+            fs::remove_all(store_.folderOf(name), status);
+            unpack(file, head);
+            job = store_.load(name);
+          }
+          if (!job) failInput(fmt::format("{}: its job {} is damaged", file.string(), name));
+          jobs.emplace_back(name, std::move(*job));
         }
       }
       takeReference(head.at("reference").get<std::string>());
@@ -103,6 +110,9 @@ class Collector {
       return true;
     } catch (const Error& error) {
       if (std::string(error.what()).rfind(file.string(), 0) != 0) throw;
+      // Whoever looks at names alone must not take it for done.
+      std::error_code status;
+      fs::rename(file, file.string() + ".damaged", status);
       logWarning(fmt::format("{}; `restlab work {} --index {}` does it anew", error.what(),
                              folder_.string(), task.index));
     } catch (const nlohmann::json::exception& error) {

@@ -31,7 +31,8 @@ class Engine {
 struct QueuedJob {
   std::string id, state;
 };
-std::optional<std::vector<QueuedJob>> slurmQueue(const Plan& plan);
+std::optional<std::vector<QueuedJob>> slurmQueue(const std::filesystem::path& folder,
+                                                 const Plan& plan);
 
 // Throws Error (badUsage) if there is no Slurm here. `options`: further words of #SBATCH, which
 // win over those that come from the plan.

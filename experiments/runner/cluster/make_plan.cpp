@@ -208,6 +208,14 @@ void savePlan(const std::vector<Suite>& points, const PlanRequest& request, cons
     return;
   }
   std::error_code status;
+  for (const char* folder : {"done", "chunks", "at-work"}) {
+    if (!fs::is_empty(out / folder, status)) {
+      failInput(fmt::format(
+          "{}: holds results of a plan that is gone; remove the folder {}, or choose another one "
+          "with -o",
+          (out / folder).string(), out.string()));
+    }
+  }
   if (fs::exists(out / "run.json", status)) {
     failInput(
         fmt::format("{}: is a folder of results of `run`; choose another one for the plan with -o",

@@ -44,7 +44,7 @@ Json planStatus(const fs::path& folder, const Plan& plan) {
   const TasksThere there = tasksThere(folder, plan);
   const Submissions submissions = readSubmissions(folder);
   std::optional<std::vector<QueuedJob>> queue;
-  if (submissions.engine == "slurm") queue = slurmQueue(plan);
+  if (submissions.engine == "slurm") queue = slurmQueue(folder, plan);
   Json groups = Json::array(), ended = Json::array();
   uint64_t index = 0, atWork = 0;
   for (const TaskGroup& group : plan.groups) {

@@ -23,8 +23,13 @@ namespace {
 
 constexpr uint64_t kUsualArray = 1001;  // Slurm's MaxArraySize unless it is set
 
-// Name of all jobs of a plan.
-std::string jobName(const Plan& plan) { return "restlab-" + plan.id.substr(0, 8); }
+// Name of all jobs of a plan in a folder: the same suite may have another one.
+std::string jobName(const fs::path& folder, const Plan& plan) {
+  std::error_code status;
+  const fs::path place = fs::weakly_canonical(folder, status);
+  const size_t hash = std::hash<std::string>()((status ? folder : place).string());
+  return fmt::format("restlab-{}-{:08x}", plan.id.substr(0, 8), uint32_t(hash));
+}
 
 std::string dependency(const std::vector<std::string>& after) {
   return after.empty() ? ""
@@ -38,7 +43,7 @@ std::string headOf(const fs::path& folder, const Plan& plan, const Asked& asked,
       "#!/bin/bash\n#SBATCH --job-name={}\n#SBATCH --output=\"{}/slurm/%A.log\" "
       "--open-mode=append\n"
       "#SBATCH --requeue\n",
-      jobName(plan), folder.string());
+      jobName(folder, plan), folder.string());
   text += dependency(after);
   if (asked.memoryMiB > 0.0)
     text += fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(asked.memoryMiB));
@@ -130,9 +135,9 @@ class Slurm : public Engine {
 
 }  // namespace
 
-std::optional<std::vector<QueuedJob>> slurmQueue(const Plan& plan) {
+std::optional<std::vector<QueuedJob>> slurmQueue(const fs::path& folder, const Plan& plan) {
   const CommandResult result =
-      runCommand({"squeue", "-h", "-r", "-n", jobName(plan), "-o", "%i %T"});
+      runCommand({"squeue", "-h", "-r", "--me", "-n", jobName(folder, plan), "-o", "%i %T"});
   if (result.code != 0) return std::nullopt;
   std::vector<QueuedJob> jobs;
   std::istringstream lines(result.out);

@@ -40,7 +40,7 @@ class Submitter {
       options_ = submissions_.options;
     } else {
       round_ = submissions_.round() + 1;
-      options_ = request_.options;
+      options_ = request_.options.empty() ? submissions_.options : request_.options;
     }
     if (request_.engine == "slurm") {
       if (!request_.goesOn) requireEmptyQueue();
@@ -69,8 +69,10 @@ class Submitter {
 
  private:
   void requireEmptyQueue() const {
-    const auto queue = slurmQueue(plan_);
-    if (!queue || queue->empty()) return;
+    const auto queue = slurmQueue(folder_, plan_);
+    if (!queue)
+      failInput("submit: squeue does not answer, so nobody knows what is in the queue already");
+    if (queue->empty()) return;
     failUsage(
         fmt::format("submit {0}: {1} of this plan are in the queue already, job {2} first; "
                     "`restlab status {0}` "
@@ -103,7 +105,8 @@ class Submitter {
       if (meetsTarget(merged, plan_.target)) continue;
       TaskGroup more = lastChunks(r);
       more.first = more.end;
-      more.end = std::max(sppExpected(merged, plan_.target), more.first + kBlockSpp);
+      more.end = sppExpected(merged, plan_.target);
+      if (more.end <= more.first) continue;
       more.each = sppOfChunk(more.end - more.first, 0);
       logInfo(fmt::format(
           "reference {}: {} spp are not enough for a relmse of {:g} (since half of them: {:.3g}); "

@@ -159,8 +159,15 @@ class TableWork {
     StoredReference stored = readStored(referenceFileOf(folder_, needed.label), key);
     if (stored.reference && meetsTarget(*stored.reference, suite.target))
       return std::move(*stored.reference);
-    for (const PlannedReference& planned : plan_.references)
-      if (planned.key == key) return plannedReference(folder_, plan_, planned, needed);
+    for (const PlannedReference& planned : plan_.references) {
+      if (planned.key != key) continue;
+      Reference merged = plannedReference(folder_, plan_, planned, needed);
+      if (meetsTarget(merged, suite.target)) return merged;
+      failInput(
+          fmt::format("{0}: reference {1} has {2} spp, which are not enough for its target yet; "
+                      "`restlab submit {0}` adds chunks until they are",
+                      folder_.string(), planned.label, merged.spp));
+    }
     failInput(fmt::format("{}: is not the reference of this scene and these settings; plan again",
                           referenceFileOf(folder_, needed.label).string()));
   }
@@ -298,8 +305,13 @@ bool workTask(const fs::path& folder, const Plan& plan, uint64_t index) {
       TableWork(folder, plan, task).execute();
     }
   } catch (const Error& error) {
-    // After a signal the mark stays without a line, as if the process had been killed.
-    if (error.code() != ExitCode::interrupted) mark.failed(error.what());
+    // After a signal, and where memory does not suffice, the mark stays without a line, as if the
+    // process had been killed: the task may be tried again with more.
+    const bool isLikeKilled =
+        error.code() == ExitCode::interrupted || error.code() == ExitCode::deviceUnavailable;
+    if (!isLikeKilled) mark.failed(error.what());
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     mark.failed(error.what());

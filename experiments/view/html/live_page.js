@@ -207,8 +207,9 @@ class LivePage {
       for (const command of commandsTowards(this.kept, state, settings)) this.session.send(command);
     }
     // Apply an address that is pasted later, too.
-    window.addEventListener('hashchange', () => {
-      const kept = readFragment(location.hash);
+    // The page may have put its own address there since.
+    window.addEventListener('hashchange', ({newURL}) => {
+      const kept = readFragment(new URL(newURL).hash);
       if (!kept) {
         this.refuseAddress();
         return;

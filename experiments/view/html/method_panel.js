@@ -193,7 +193,7 @@ class MethodPanel {
         this.open(i);
         this.search.value = name;
         this.filter();
-        pane.controls.get(name).element.querySelector('input, select').focus();
+        pane.controls.get(name)?.element.querySelector('input, select').focus();
       }
     })));
   }

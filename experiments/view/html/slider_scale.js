@@ -33,7 +33,7 @@ class NumberInput {
     this.element = make('span', {class: 'number-input'}, this.slider, this.number);
     this.slider.addEventListener('input', () => {
       const value = this.scale.from(Number(this.slider.value));
-      this.number.value = value;
+      this.held = this.number.value = value;
       send(value);
     });
     // Arrow keys move by a hundredth of the range; whole numbers by at least 1.
@@ -52,7 +52,7 @@ class NumberInput {
         this.refuse(`${name}: must be a${isWhole ? ' whole' : ''} number between ${lo} and ${hi}`);
         return;
       }
-      const value = Number(this.number.value);
+      const value = this.held = Number(this.number.value);
       this.slider.value = this.scale.to(value);
       send(value);
     });
