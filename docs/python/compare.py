@@ -91,7 +91,7 @@ def shown(image):
 
 
 names = list(measured) + ["reference"]
-figure = plt.figure(figsize=(13, 7.6), layout="constrained")
+figure = plt.figure(figsize=(13, 7), layout="constrained")
 above, below = figure.subfigures(2, 1, height_ratios=(1.5, 1))
 plot = above.subplots()
 for name, of in measured.items():
@@ -107,5 +107,5 @@ for axes, name in zip(below.subplots(1, len(names)), names):
     axes.imshow(shown(image), interpolation="nearest")
     axes.set_title(name if name == "reference" else f"{name}\n" f"frame {FRAMES}", fontsize=8)
     axes.axis("off")
-figure.savefig(FIGURE, dpi=120)
+figure.savefig(FIGURE, dpi=100)
 print(f"{FIGURE}: written")

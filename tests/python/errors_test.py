@@ -89,7 +89,9 @@ def test_arrays(image, words):
 def test_other_arguments():
     assert "did you mean 'mse'?" in error(restlab.metric, "mze", GREY, GREY)[1]
     assert "(8, 8) of bool" in error(restlab.metric, "mse", GREY, GREY, mask=GREY)[1]
-    assert "(8, 8) of bool" in error(restlab.metric, "mse", GREY, GREY, mask=GREY[:, :4, 0] > 0)[1]
+    for part in (GREY[:, :4], GREY[:4]):
+        line = error(restlab.metric, "mse", GREY, GREY, mask=part[..., 0] > 0)[1]
+        assert "(8, 8) of bool" in line
     assert "two images" in error(restlab.metric, "bias_rms", GREY, GREY)[1]
     assert "half0 and half1" in error(restlab.Reference, GREY, GREY)[1]
     assert "one of spp" in error(restlab.reference, "furnace")[1]

@@ -75,13 +75,18 @@ try:
 except restlab.Error as error:
     print(error)
 session.frame()
-print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+try:
+    os.kill(os.getpid(), signal.SIGINT)  # where no frame is under way
+    signal.pause()
+except KeyboardInterrupt:
+    session.frame()
+    print(session.frame_count)
 """
     )
     assert out.splitlines() == [
         "interrupted",
         "radiance: this history has no frame yet; call frame() first",
-        "True",
+        "2",
     ]
 
 
