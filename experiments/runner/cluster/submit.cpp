@@ -43,8 +43,8 @@ class Submitter {
       options_ = request_.options.empty() ? submissions_.options : request_.options;
     }
     if (request_.engine == "slurm") {
-      if (!request_.goesOn) requireEmptyQueue();
       engine_ = makeSlurm(folder_, plan_, options_);
+      if (!request_.goesOn) requireEmptyQueue();
     } else {
       engine_ = makeLocal(folder_, request_.processes);
     }
