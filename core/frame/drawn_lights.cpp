@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/scene/compiled/compiled_scene.h"
 
 namespace restlab {

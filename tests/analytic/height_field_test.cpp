@@ -1,6 +1,7 @@
 // The virtual gonioreflectometer against surfaces whose BRDF is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

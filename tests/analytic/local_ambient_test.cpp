@@ -2,6 +2,7 @@
 // space against an integral over the points that it looks at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/builtin/builder.h"

@@ -3,6 +3,7 @@
 // finds it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

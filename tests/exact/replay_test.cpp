@@ -8,6 +8,7 @@
 // connects. Its integrand leaves out the density of the directions that reconnect, so that J = 1.
 #define RL_REAL_DOUBLE
 #define EXACT_LABELS 96
+#include <algorithm>
 #include <optional>
 #include <tuple>
 

@@ -1,5 +1,6 @@
 #include "tests/lint/texts.h"
 
+#include <algorithm>
 #include <cctype>
 #include <regex>
 #include <sstream>

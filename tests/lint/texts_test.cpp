@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/lint/std_headers.h"
+
 namespace restlab::lint {
 namespace {
 
@@ -67,6 +69,16 @@ TEST(MissingPaths, AreThoseThatNoFileHas) {
   EXPECT_EQ(found[0].line, 2);
 }
 
+TEST(StdHeaders, AreThoseOfTheCalls) {
+  const std::string call = "\nint a = std::max({1, 2});\n";
+  const auto found = findMissingStdHeaders("a.cpp", "#include <numeric>\n" + call);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].line, 3);
+  EXPECT_TRUE(findMissingStdHeaders("a.cpp", "#include <algorithm>\n" + call).empty());
+  EXPECT_EQ(findMissingStdHeaders("a.cpp", "std::iota(a, b, 0);").size(), 1u);
+  EXPECT_TRUE(findMissingStdHeaders("a.cpp", "std::maximal(1); my::max(1, 2);").empty());
+}
+
 TEST(Texts, CommentsBeginWithWhatTheyAreAbout) {
   size_t files = 0;
   for (const fs::path& file : allFiles()) {
@@ -74,6 +86,17 @@ TEST(Texts, CommentsBeginWithWhatTheyAreAbout) {
     if (file.filename() == "texts_test.cpp") continue;  // makes some up
     ++files;
     const std::vector<Finding> found = findRiddles(nameOf(file), textOf(file));
+    EXPECT_TRUE(found.empty()) << format(found);
+  }
+  EXPECT_GT(files, 500u);
+}
+
+TEST(Texts, FilesIncludeTheAlgorithmsThatTheyCall) {
+  size_t files = 0;
+  for (const fs::path& file : allFiles()) {
+    if (!isOneOf(file, {".h", ".cpp"}) || file.filename() == "texts_test.cpp") continue;
+    ++files;
+    const std::vector<Finding> found = findMissingStdHeaders(nameOf(file), textOf(file));
     EXPECT_TRUE(found.empty()) << format(found);
   }
   EXPECT_GT(files, 500u);

@@ -2,6 +2,7 @@
 // behind a divider, and insets with their own errors.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/image/metrics/metrics.h"

@@ -2,6 +2,8 @@
 // line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/scene/curves/curve_words.h"
 #include "core/scene/scene.h"

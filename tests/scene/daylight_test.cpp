@@ -1,6 +1,7 @@
 // Sun and sky by formula (Preetham, Shirley and Smits 1999).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,6 +1,7 @@
 // BSDFs, textures and emitters of Mitsuba as materials and lights of the scene.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 

@@ -1,6 +1,8 @@
 // [[shape]] of scene files: instances of one geometry, meshes of files, normals of meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/scene/compiled/compiled_scene.h"
 #include "core/scene/field/grid_file.h"

@@ -2,6 +2,7 @@
 // the surface to the stated errors, and neighbours share the vertices of their edges.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -1,6 +1,7 @@
 // Grids of distances to meshes, against every triangle, and what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

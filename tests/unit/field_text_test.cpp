@@ -1,6 +1,7 @@
 // Texts of fields: what they compute, what is refused, and that errors name the place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

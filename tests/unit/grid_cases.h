@@ -1,6 +1,7 @@
 // Grids of samples for tests, and trees that name them.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <stdexcept>

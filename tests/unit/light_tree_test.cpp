@@ -2,6 +2,7 @@
 // and misses none that can send it light.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,4 +1,5 @@
 // Scenes of one surface each: a function that is 0 there, or a solid made of others.
+#include <algorithm>
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/config.h"
 #include "core/base/error.h"
 #include "core/scene/field/stand_in.h"

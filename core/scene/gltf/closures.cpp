@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/scene/gltf/json.h"
 #include "core/scene/scene_file/scene_file.h"

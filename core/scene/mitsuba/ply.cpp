@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>

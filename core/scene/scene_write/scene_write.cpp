@@ -177,9 +177,10 @@ class SceneFileWriter {
     if (hasTable(source)) return table + "kind = \"table\"\n";
     json own = shortKindOf(source);
     if (own.is_null()) own = gltf_write::kindWithoutTextures(scene_, index);
-    table += "kind = " + tomlOf(own["kind"]) + "\n";
+    const auto ownKind = own["kind"].get<std::string>();
+    table += "kind = " + quoted(ownKind) + "\n";
     for (const MaterialKind& kind : materialKinds()) {
-      if (kind.name != own["kind"]) continue;
+      if (kind.name != ownKind) continue;
       for (const ClosureParameter& p : kind.parameters)
         if (own.contains(p.name)) table += p.name + " = " + tomlOf(own[p.name]) + "\n";
     }
