@@ -20,11 +20,15 @@ namespace {
 int level = 0;
 bool isEventLog = false;
 
-// Prints one line, even if a file name or a library's message has line breaks.
-void line(const std::string& text) {
-  std::fputs((oneLine(text) + "\n").c_str(), stderr);
+// Prints after all that stdout has so far: both may go to one file, as in the log of a job.
+void printLast(const std::string& text) {
+  std::fflush(stdout);
+  std::fputs((text + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
+
+// Prints one line, even if a file name or a library's message has line breaks.
+void line(const std::string& text) { printLast(oneLine(text)); }
 
 void say(const char* event, const char* prefix, const std::string& text) {
   if (isEventLog) {
@@ -60,8 +64,7 @@ void logEvent(const nlohmann::ordered_json& event) {
   line.update(event);
   // Replace invalid UTF-8, which file names may have.
   const auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
-  std::fputs((jsonWithoutControls(line.dump(-1, ' ', false, anyBytes)) + "\n").c_str(), stderr);
-  std::fflush(stderr);
+  printLast(jsonWithoutControls(line.dump(-1, ' ', false, anyBytes)));
 }
 
 void setVerbosity(int newLevel) { level = newLevel; }
