@@ -19,6 +19,7 @@
 namespace restlab {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -33,6 +34,8 @@ struct PlanOptions {
 struct WorkOptions {
   std::string folder;
   uint64_t index = 0, count = 1;
+  double waitS = 0.0;
+  bool json = false;
 };
 
 struct CollectOptions {
@@ -42,6 +45,7 @@ struct CollectOptions {
 struct SubmitOptions {
   PlanOptions plan;
   SubmitRequest request;
+  bool json = false;
 };
 
 void addPlanOptions(CLI::App& verb, PlanOptions& options) {
@@ -88,11 +92,19 @@ void planSuite(const PlanOptions& options, Outcome& outcome) {
 void work(const WorkOptions& options) {
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
   const Plan plan = readPlan(folder);
+  Json tasks = Json::array();
   for (uint64_t index = options.index; index < options.index + options.count; ++index) {
-    const std::string what = plan.describe(plan.task(index));
-    const bool isMade = workTask(folder, plan, index);
+    const Task task = plan.task(index);
+    const std::string what = plan.describe(task);
+    const bool isMade = workTask(folder, plan, index, options.waitS);
     logInfo(fmt::format("task {} ({}): {}", index, what, isMade ? "done" : "was done already"));
+    tasks.push_back({{"task", index},
+                     {"what", what},
+                     {"was_done_already", !isMade},
+                     {"result", resultFile(folder, plan, task).string()}});
   }
+  if (options.json)
+    printJsonText(Json({{"folder", folder.string()}, {"tasks", std::move(tasks)}}).dump(2));
 }
 
 void sayWhatIsMissing(const Collected& collected, const fs::path& out) {
@@ -114,8 +126,26 @@ void collect(const CollectOptions& options) {
   sayWhatIsMissing(collected, out);
 }
 
+Json jsonOf(const SubmitRequest& request, const Submitted& submitted) {
+  Json jobs = Json::array();
+  for (const Submission& job : submitted.jobs) {
+    jobs.push_back({{"id", job.id},
+                    {"tasks", rangesText(job.tasks)},
+                    {"asked_mib", job.asked.memoryMiB},
+                    {"asked_s", job.asked.seconds}});
+  }
+  Json json = {
+      {"folder", request.folder.string()}, {"engine", request.engine}, {"jobs", std::move(jobs)}};
+  if (submitted.collected) {
+    json["tasks"] = submitted.collected->tasks;
+    json["missing"] = rangesText(submitted.collected->missing);
+  }
+  return json;
+}
+
 void submit(const SubmitOptions& options, Outcome& outcome) {
   SubmitRequest request = options.request;
+  request.prints = !options.json;
   if (isPlanFolder(options.plan.suite.suite)) {
     request.folder = fs::absolute(options.plan.suite.suite).lexically_normal();
     if (options.plan.dryRun) {
@@ -127,13 +157,15 @@ void submit(const SubmitOptions& options, Outcome& outcome) {
     const PlanRequest own = requestOf(options.plan, outcome, points);
     request.folder = own.out;
     const Plan plan = makePlan(points, own);
-    printText(planTable(plan));
+    if (!options.json) printText(planTable(plan));
     if (options.plan.dryRun) return;
     savePlan(points, own, plan);
   }
-  const std::optional<Collected> collected = submitPlan(request, readPlan(request.folder));
+  const Submitted submitted = submitPlan(request, readPlan(request.folder));
+  const std::optional<Collected>& collected = submitted.collected;
+  if (options.json) printJsonText(jsonOf(request, submitted).dump(2));
   if (!collected) return;
-  printText(collected->tables);
+  if (!options.json) printText(collected->tables);
   sayWhatIsMissing(*collected, request.folder);
   if (!collected->missing.empty()) {
     throw Error(ExitCode::badInput,
@@ -162,6 +194,11 @@ Action addWorkVerb(CLI::App& app) {
   verb->add_option("--count", options->count,
                    "tasks from there on, one after the other (default 1)")
       ->transform(wholeNumberFrom(1, uint64_t(1) << 32));
+  verb->add_option("--wait", options->waitS,
+                   "seconds to wait for references that others have merged and a network file "
+                   "system does not show here yet (default 0)")
+      ->transform(numberFrom(0.0, 86400.0, "seconds"));
+  verb->add_flag("--json", options->json, "the finished tasks as JSON");
   return [options](Outcome&) { work(*options); };
 }
 
@@ -185,10 +222,12 @@ Action addSubmitVerb(CLI::App& app) {
       ->check(CLI::IsMember({"slurm", "local"}));
   verb->add_option("--sbatch", options->request.options,
                    "options of sbatch, as \"--partition=NAME --mem=4G\"; they win over what the "
-                   "plan asks for");
+                   "plan asks for, and a second attempt asks for twice their --mem and --time");
   verb->add_option("-j,--jobs", options->request.processes,
                    "processes at a time of the local engine (default 1)")
       ->transform(wholeNumberFrom(1, 1024));
+  verb->add_flag("--json", options->json, "jobs, and what is missing at the end, as JSON")
+      ->excludes("--dry-run");
   verb->add_flag("--go-on", options->request.goesOn, "of the scripts that this writes")->group("");
   return [options](Outcome& outcome) { submit(*options, outcome); };
 }

@@ -110,7 +110,7 @@ Action addReportVerb(CLI::App& app) {
   auto options = std::make_shared<FolderOptions>();
   addFolderVerb(app, "report", "makes tables, plots and report again from finished runs", options);
   return [options](Outcome&) {
-    printText(remakeOutputs(options->folder));
+    printText(remakeOutputs(options->folder).tables);
     logInfo(fmt::format("{}: written", options->folder));
   };
 }

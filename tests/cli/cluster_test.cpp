@@ -163,6 +163,78 @@ TEST_F(ClusterTest, ADamagedResultIsMissingAndDoneAnew) {
   expectSameTables("shared");
 }
 
+TEST_F(ClusterTest, WhatIsDamagedByItselfIsMadeAnew) {
+  plan();
+  workAll();
+  ASSERT_EQ(run("collect shared").code, 0);
+  runAlone();
+  // An image of an unpacked job.
+  const fs::path image = path("shared/jobs/" + keys("shared")[0] + "/method0.exr");
+  fs::resize_file(image, fs::file_size(image) / 2);
+  write("shared/done/000002.tar.tmp-1-0-node", "of a killed worker");
+  write("shared/done/000004.tar.tmp-1-0-node", "of no task that is done");
+  ASSERT_EQ(run("collect shared").code, 0);
+  expectSameTables("shared");
+  EXPECT_FALSE(fs::exists(path("shared/done/000002.tar.tmp-1-0-node")));
+  EXPECT_TRUE(fs::exists(path("shared/done/000004.tar.tmp-1-0-node")));
+  // A chunk, before it is merged.
+  for (const char* folder : {"shared/references", "shared/done", "shared/jobs"})
+    for (const fs::path& entry : entries(folder)) fs::remove_all(entry);
+  const fs::path chunk = entries("shared/chunks")[0];
+  fs::resize_file(chunk, fs::file_size(chunk) / 2);
+  const ProgramResult made = run("submit shared");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("; task 0 is to be done anew"), std::string::npos) << made.err;
+  expectSameTables("shared");
+}
+
+// A node that does not see yet what others have made.
+TEST_F(ClusterTest, AWorkerWaitsForReferencesThatAreThereElsewhere) {
+  plan();
+  std::jthread later([&] {
+    for (const int index : {0, 1}) EXPECT_EQ(work(index).code, 0);
+  });
+  const ProgramResult waited = run("work shared --index 3 --wait 100 --json");
+  later.join();
+  EXPECT_EQ(waited.code, 0) << waited.err;
+  EXPECT_NE(waited.err.find("is not to be seen here yet"), std::string::npos) << waited.err;
+  const Json said = Json::parse(waited.out);
+  ASSERT_EQ(said["tasks"].size(), 1u);
+  EXPECT_EQ(said["tasks"][0]["task"], 3);
+  EXPECT_EQ(said["tasks"][0]["was_done_already"], false);
+  const ProgramResult all = run("submit shared --json");
+  EXPECT_EQ(all.code, 0) << all.err;
+  const Json made = Json::parse(all.out);
+  EXPECT_EQ(made["tasks"], 4);
+  EXPECT_EQ(made["missing"], "");
+}
+
+TEST_F(ClusterTest, AReferenceFileThatChangesIsRefused) {
+  const auto reference = [&](const char* seed) {
+    ASSERT_EQ(run({"reference", "cornell-box", "--width", "24", "--height", "16", "--max-bounces",
+                   "3", "--spp", "16", "--seed", seed, "-o", "own.exr"})
+                  .code,
+              0);
+  };
+  reference("1");
+  std::string text = kSmallSuite;
+  const std::string list = "scenes = [\"cornell-box\"]\n";
+  text.erase(text.find(list), list.size());
+  write("suite.toml", text + "[[scene]]\nscene = \"cornell-box\"\nreference = \"own.exr\"\n");
+  const ProgramResult made = run("plan suite.toml -o shared --set timing=false --estimate none");
+  ASSERT_EQ(made.code, 0) << made.err;
+  ASSERT_EQ(work(0).code, 0);
+  const std::string before = read("own.exr");
+  reference("2");
+  expectError(work(1), 3,
+              {"own.exr: is not the reference that was planned with", "another folder"});
+  expectError(run("collect shared"), 3, {"own.exr: is not the reference that was planned with"});
+  write("own.exr", before);
+  for (const int index : {1, 2}) EXPECT_EQ(work(index).code, 0);
+  EXPECT_EQ(run("collect shared").code, 0);
+  EXPECT_EQ(Json::parse(read("shared/run.json"))["status"], "finished");
+}
+
 TEST_F(ClusterTest, AFullFolderIsOneLineAndLaterThereIsRoom) {
   fs::create_directory(path("shared"));
   SmallDisk disk(path("shared"), "size=128k");
@@ -237,12 +309,13 @@ TEST_F(ClusterTest, SubmitMakesMoreChunksUntilTheErrorIsReached) {
   const std::string settings =
       "--set reference.spp=1000000 --set reference.target_relmse=2e-4 "
       "--set timing=false";
-  const ProgramResult made =
-      run("submit suite.toml -o shared --chunk 2 --estimate none -j 2 " + settings);
+  const ProgramResult made = run(
+      "submit suite.toml -o shared --chunk 2 --chunk-spp 2000 --estimate none -j 2 " + settings);
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_NE(made.err.find("spp are not enough"), std::string::npos) << made.err;
   const Json plan = Json::parse(read("shared/plan.json"));
-  EXPECT_GT(plan["groups"].size(), 2u);
+  ASSERT_GT(plan["groups"].size(), 2u);
+  EXPECT_EQ(plan["groups"][2]["each"], 2048) << "as --chunk-spp asks";
   runAlone(settings);
   expectSameTables("shared");
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "experiments/runner/base/build_info.h"
+#include "experiments/runner/cluster/sbatch_options.h"
 #include "experiments/runner/cluster/submissions.h"
 #include "experiments/runner/cluster/tasks_there.h"
 #include "tests/runner/temporary_folder.h"
@@ -23,7 +24,9 @@ class PlanTest : public TemporaryFolder {
     plan_.tables.resize(2);
     plan_.tables[0].label = "a";
     plan_.tables[1].label = "b";
-    plan_.groups = {{true, 0, 0, 2500, 1024}, {false, 0, 0, 7, 3}, {false, 1, 0, 1, 3}};
+    plan_.add({true, 0, 0, 2500, 1024});
+    plan_.add({false, 0, 0, 7, 3});
+    plan_.add({false, 1, 0, 1, 3});
   }
   Plan plan_;
 };
@@ -37,7 +40,7 @@ TEST_F(PlanTest, TasksAreCountedThroughTheGroups) {
   EXPECT_EQ(plan_.describe(plan_.task(6)), "run 0 of b");
   EXPECT_THROW(plan_.task(7), Error);
   // Chunks that are added later leave the numbers of all others.
-  plan_.groups.push_back({true, 0, 2500, 4000, 1024});
+  plan_.add({true, 0, 2500, 4000, 1024});
   EXPECT_EQ(plan_.describe(plan_.task(3)), "runs 0 to 2 of a");
   EXPECT_EQ(plan_.describe(plan_.task(8)), "samples 3524 to 3999 of reference ref");
 }
@@ -53,7 +56,7 @@ TEST_F(PlanTest, APlanIsReadAsItWasWritten) {
   EXPECT_EQ(read.tables[1].references, plan_.tables[1].references);
   EXPECT_EQ(read.tables[1].runS, 0.1 + 0.2);
   EXPECT_TRUE(read.references[0].isWhole);
-  plan_.groups[0].of = 1;
+  plan_.add({true, 1, 0, 1, 1});
   writePlan(folder(), plan_);
   EXPECT_THROW(readPlan(folder()), Error) << "a reference that is not there";
 }
@@ -74,6 +77,38 @@ TEST_F(PlanTest, SubmissionsAreCountedByRound) {
   EXPECT_EQ(read.last(1)->asked.memoryMiB, 200.0);
   read.all.push_back({"4", {0}, {}, 2, "t"});
   EXPECT_EQ(read.attempts(1), 0) << "a call by hand begins anew";
+}
+
+TEST_F(PlanTest, MarksAreOfTheRoundThatHandedTheTaskOver) {
+  Submissions all;
+  all.all = {{"17", {0, 1}, {}, 1, "t"}, {"18", {0, 1}, {}, 2, "t"}, {"19", {1}, {}, 2, "t"}};
+  Mark mark;
+  mark.job = "17_1";
+  EXPECT_FALSE(all.isOfRound(mark, 1));
+  mark.job = "19_1";
+  EXPECT_TRUE(all.isOfRound(mark, 1));
+  EXPECT_FALSE(all.isOfRound(mark, 0));
+  // Processes here have times instead.
+  all.all = {{"", {0}, {}, 1, "2026-01-01T00:00:00Z"}, {"", {0}, {}, 2, "2026-01-01T00:00:09Z"}};
+  mark.job = "";
+  mark.started = "2026-01-01T00:00:05Z";
+  EXPECT_FALSE(all.isOfRound(mark, 0));
+  mark.started = "2026-01-01T00:00:10Z";
+  EXPECT_TRUE(all.isOfRound(mark, 0));
+}
+
+TEST(SbatchOptions, OfTheUserAreDoubled) {
+  const Asked planned = {600.0, 1000.0};
+  const auto asked = [&](const std::string& options, double times) {
+    const Asked own = withOptions(planned, options, times);
+    return std::pair(own.memoryMiB, own.seconds);
+  };
+  EXPECT_EQ(asked("--partition=main -c 4", 2.0), std::pair(1000.0, 600.0)) << "as they come";
+  EXPECT_EQ(asked("--mem=4G --time=90", 2.0), std::pair(8192.0, 10800.0));
+  EXPECT_EQ(asked("--mem 512 -t 1:30:00", 1.0), std::pair(512.0, 5400.0));
+  EXPECT_EQ(asked("-t90:30 --mem=1048576K", 1.0), std::pair(1024.0, 5430.0));
+  EXPECT_EQ(asked("--time=2-12 --mem-bind=local", 2.0), std::pair(1000.0, 2 * 216000.0));
+  EXPECT_EQ(asked("--mem-per-cpu=1G --time=UNLIMITED", 2.0), std::pair(0.0, 0.0)) << "they stay";
 }
 
 }  // namespace

@@ -169,6 +169,21 @@ TEST_F(ReferenceChunks, TargetIsMetAtTheSameSample) {
   EXPECT_EQ(sppExpected(whole, target), whole.spp);
 }
 
+// The first chunk ends where one rendering would, within its block.
+TEST_F(ReferenceChunks, TargetIsMetWithinTheFirstBlock) {
+  const double reached = renderReference(scene_, tinyConfig(), {.spp = 640}).relmseSinceHalf;
+  const ReferenceTarget target = {.relmse = 1.01 * reached};
+  const Reference whole = renderReference(scene_, tinyConfig(), target);
+  ASSERT_LE(whole.spp, 640u);
+  const ChunkRange planned = {0, kBlockSpp};
+  EXPECT_TRUE(renderChunk(scene_, tinyConfig(), planned, file(planned), target));
+  EXPECT_EQ(readChunkInfo(file(planned)).range, (ChunkRange{0, whole.spp}));
+  expectSame(merged(tinyConfig(), {file(planned)}, target), whole);
+  EXPECT_FALSE(renderChunk(scene_, tinyConfig(), planned, file(planned), target)) << "is there";
+  EXPECT_TRUE(renderChunk(scene_, tinyConfig(), planned, file(planned), {.relmse = 1e-9}))
+      << "is too short for another target";
+}
+
 TEST_F(ReferenceChunks, ThatAreThereStay) {
   const ChunkRange range = {kBlockSpp, 3};
   const fs::path chunk = render(tinyConfig(), {range}).at(0);

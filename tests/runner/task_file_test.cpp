@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "core/image/io/atomic_file.h"
 #include "tests/runner/temporary_folder.h"
 
 namespace restlab {
@@ -43,6 +44,18 @@ TEST_F(TaskFileTest, WhatIsPackedIsUnpacked) {
   const std::string before = read(file());
   packTask(file(), {{"task", 2}}, folder() / "jobs");
   EXPECT_EQ(read(file()), before);
+}
+
+TEST_F(TaskFileTest, TheFirstOfTwoWritersWins) {
+  {
+    AtomicFile one(file()), other(file());
+    one.stream() << "one";
+    other.stream() << "other";
+    EXPECT_TRUE(other.commitNew());
+    EXPECT_FALSE(one.commitNew());
+  }
+  EXPECT_EQ(read(file()), "other");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder()), {}), 2) << "the file, and jobs";
 }
 
 TEST_F(TaskFileTest, EveryDamageIsFound) {

@@ -59,7 +59,7 @@ fs::path temporaryNameFor(const fs::path& target) {
   char machine[65] = {};
   if (::gethostname(machine, sizeof(machine) - 1) != 0) machine[0] = '\0';
   fs::path name = target;
-  name += fmt::format(".tmp-{}-{}-{}", ::getpid(), counter++, machine);
+  name += fmt::format("{}{}-{}-{}", kTemporary, ::getpid(), counter++, machine);
   return name;
 }
 
@@ -111,11 +111,28 @@ AtomicFile::~AtomicFile() {
   forgetTemporaryFile(temporary_);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::close() {
   if (!stream_) failFile(file_, "cannot be written: a write failed (is the disk full?)");
   errno = 0;
   stream_.close();
   if (!stream_) failFile(file_, "cannot be written: " + systemReason(errno));
+}
+
+bool AtomicFile::commitNew() {
+  close();
+  std::error_code error, ignored;
+  fs::create_hard_link(temporary_, target_, error);
+  // A network file system may repeat a request that was done, and then say that the name exists.
+  const bool isLinked = !error || fs::hard_link_count(temporary_, ignored) == 2;
+  if (!isLinked && !fs::exists(target_, ignored)) {
+    commit();  // there are no links on this file system
+    return true;
+  }
+  return isLinked;  // destruction removes the temporary name
+}
+
+void AtomicFile::commit() {
+  if (stream_.is_open()) close();
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) failFile(file_, "cannot be written: " + error.message());

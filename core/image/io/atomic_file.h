@@ -7,6 +7,9 @@
 
 namespace restlab {
 
+// Follows the name of a file in the names of its temporary neighbours.
+constexpr const char* kTemporary = ".tmp-";
+
 // Writes to a temporary neighbour of `file`; commit() gives it the final name, and destruction
 // without commit() removes it. A symbolic link is followed, so the file it names is replaced.
 // Every failure throws Error (badInput) naming the file and the operating system's reason.
@@ -20,8 +23,12 @@ class AtomicFile {
   // Stream to write to. Callers need not check it: commit() throws if any write failed.
   std::ofstream& stream() { return stream_; }
   void commit();
+  // Gives the final name only if no file has it. Returns false if one has, which stays: of several
+  // writers on several machines the first one wins.
+  bool commitNew();
 
  private:
+  void close();
   std::filesystem::path file_, target_, temporary_;
   std::ofstream stream_;
   bool committed_ = false;

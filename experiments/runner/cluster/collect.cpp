@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/base/control_characters.h"
@@ -16,6 +17,7 @@
 #include "experiments/runner/results/folder_lock.h"
 #include "experiments/runner/results/results_folder.h"
 #include "experiments/runner/results/results_log.h"
+#include "experiments/runner/run/block.h"
 #include "experiments/runner/run/job.h"
 #include "experiments/runner/run/run_record.h"
 
@@ -36,6 +38,16 @@ class Collector {
     makeWritableDirectory(out_);
     isElsewhere_ = !fs::equivalent(out_, folder_);
     if (isElsewhere_) requireOwnFolder();
+    requirePlannedFiles();
+    // A job whose image is damaged in `out_` is unpacked again, which needs a second time.
+    if (!makeTables()) makeTables();
+    return std::move(collected_);
+  }
+
+ private:
+  // Returns false if some jobs were damaged. They are removed.
+  bool makeTables() {
+    collected_ = Collected();
     Json blocks = Json::array();
     {
       const FolderLock lock(out_);
@@ -47,25 +59,43 @@ class Collector {
       }
       ResultsLog log(out_ / "results.jsonl");
       const TasksThere there = tasksThere(folder_, plan_);
+      removeLeftovers(folder_, plan_, there);
       collected_.tasks = plan_.tasks();
-      uint64_t index = 0;
-      for (const TaskGroup& group : plan_.groups) {
+      for (const TaskGroup& group : plan_.groups()) {
+        if (group.isReference) continue;  // a merged reference needs no chunk any more
         Json block;
-        for (uint64_t number = 0; number < group.tasks(); ++number, ++index) {
-          // A merged reference needs no chunk any more.
-          if (group.isReference) continue;
-          const Task task = plan_.taskOf(group, number, index);
+        for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
+          const Task task = Plan::taskOf(group, index);
           if (!there.isDone[index] || !take(task, log, block)) collected_.missing.push_back(index);
         }
         if (!block.is_null()) blocks.push_back(std::move(block));
       }
       writeRecord(std::move(blocks));
     }
-    collected_.tables = remakeOutputs(out_);
-    return std::move(collected_);
+    RemadeOutputs made = remakeOutputs(out_);
+    for (const std::string& key : made.missing) {
+      std::error_code status;
+      fs::remove_all(store_.folderOf(key), status);
+    }
+    collected_.tables = std::move(made.tables);
+    return made.missing.empty();
   }
 
- private:
+  // Throws unless the files that the suite names are those that errors were measured against.
+  void requirePlannedFiles() const {
+    std::map<std::string, std::string> hashes;
+    std::vector<Suite> points;
+    for (const PlannedTable& table : plan_.tables) {
+      if (table.referenceHash.empty()) continue;
+      if (points.empty()) points = openPlan(folder_, plan_);
+      const fs::path file =
+          referenceFileNamed(points.at(table.block.point).scenes.at(table.block.scene));
+      std::string& hash = hashes[file.string()];
+      if (hash.empty()) hash = referenceHash(readReference(file));
+      if (hash != table.referenceHash) failInput(changedReferenceText(file));
+    }
+  }
+
   void requireOwnFolder() const {
     std::error_code status;
     if (!fs::exists(out_ / "run.json", status)) return;
@@ -84,20 +114,17 @@ class Collector {
       if (head.at("plan").get<std::string>() != plan_.id ||
           head.at("task").get<uint64_t>() != task.index)
         failInput(fmt::format("{}: is of another plan or task", file.string()));
+      const std::string& reference = plan_.tables[task.of].referenceHash;
+      if (!reference.empty() && head.at("reference_hash").get<std::string>() != reference)
+        failInput(fmt::format("{}: is measured against another reference", file.string()));
       unpack(file, head);
       std::vector<std::pair<std::string, JobData>> jobs;
       for (const char* list : {"jobs", "images"}) {
         for (const Json& key : head.at(list)) {
           const std::string name = key.get<std::string>();
-          std::optional<JobData> job = store_.load(name);
-          if (!job) {
-            std::error_code status;
-            fs::remove_all(store_.folderOf(name), status);
-            unpack(file, head);
-            job = store_.load(name);
-          }
-          if (!job) failInput(fmt::format("{}: its job {} is damaged", file.string(), name));
-          jobs.emplace_back(name, std::move(*job));
+          const std::optional<Json> record = store_.record(name);
+          if (!record) failInput(fmt::format("{}: its job {} is damaged", file.string(), name));
+          jobs.emplace_back(name, linesOf(*record));
         }
       }
       takeReference(head.at("reference").get<std::string>());
@@ -119,6 +146,15 @@ class Collector {
       logWarning(fmt::format("{}: {}; left out", file.string(), error.what()));
     }
     return false;
+  }
+
+  // Returns the job without its images, which are read once, for the tables.
+  static JobData linesOf(const Json& record) {
+    JobData job;
+    for (const Json& method : record.at("methods"))
+      for (JobMethod& own = job.methods.emplace_back(); const Json& line : method.at("lines"))
+        own.lines.push_back(line);
+    return job;
   }
 
   // Unpacks beside the jobs, and gives each its name by a rename once it is whole.

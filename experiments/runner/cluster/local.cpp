@@ -24,8 +24,11 @@ class Local : public Engine {
  public:
   Local(const fs::path& folder, uint32_t processes) : folder_(folder), processes_(processes) {}
 
-  std::vector<std::string> launch(const std::vector<uint64_t>& tasks, const Asked&,
-                                  const std::vector<std::string>&) override {
+  std::vector<std::vector<uint64_t>> parts(const std::vector<uint64_t>& tasks) const override {
+    return {tasks};
+  }
+
+  std::string launch(const std::vector<uint64_t>& tasks, const Asked&) override {
     Progress progress("tasks", tasks.size());
     size_t next = 0;
     uint64_t ended = 0;
@@ -45,12 +48,11 @@ class Local : public Engine {
     }
     progress.finish();
     throwIfInterrupted("finished tasks are kept; the same command goes on");
-    return {};
+    return "";
   }
 
   std::string goOn(const Asked&, const std::vector<std::string>&) override { return ""; }
   bool hasJobs() const override { return false; }
-  std::string endOf(const std::string&) const override { return ""; }
 
  private:
   struct AtWork {

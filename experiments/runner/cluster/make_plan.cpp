@@ -17,6 +17,7 @@
 #include "experiments/runner/results/measured_cost.h"
 #include "experiments/runner/run/block.h"
 #include "experiments/runner/run/block_label.h"
+#include "experiments/runner/run/job.h"
 #include "experiments/runner/run/suite_check.h"
 
 namespace restlab {
@@ -82,6 +83,7 @@ class Planner {
     plan_.argv = request_.argv;
     plan_.threads = suite.threads;
     plan_.target = suite.target;
+    plan_.sppOfChunk = request_.sppOfChunk;
     for (const SuiteScene& scene : suite.scenes) plan_.scenes.push_back(scene.name);
     for (const SuiteMethod& method : suite.methods) plan_.methods.push_back(method.name);
   }
@@ -95,6 +97,8 @@ class Planner {
       PlannedTable table;
       table.block = {s, p, component};
       table.label = blockLabel(suite, block);
+      if (!scene.reference.empty())
+        table.referenceHash = referenceHash(readReference(referenceFileNamed(scene)));
       table.runs = suite.runs;
       const std::vector<NeededReference> needed = renderedReferences(suite, scene, prepared, block);
       for (size_t number = 0; number < needed.size(); ++number) {
@@ -147,10 +151,10 @@ class Planner {
         if (target.relmse > 0.0 && target.spp > 0) group.end = std::min(group.end, target.spp);
         group.each = sppOfChunk(group.end, request_.sppOfChunk);
       }
-      plan_.groups.push_back(group);
+      plan_.add(group);
     }
     for (size_t t = 0; t < plan_.tables.size(); ++t)
-      plan_.groups.push_back({false, t, 0, plan_.tables[t].runs, request_.runsOfTask});
+      plan_.add({false, t, 0, plan_.tables[t].runs, request_.runsOfTask});
   }
 
   // Returns a hash of what results depend on, besides keys of their own.
@@ -160,6 +164,8 @@ class Planner {
         request_.runsOfTask,      request_.sppOfChunk};
     for (const char* what : {"version", "source_hash", "measuring_hash"})
       words.push_back(plan_.build.at(what));
+    for (const PlannedTable& table : plan_.tables)
+      if (!table.referenceHash.empty()) words.push_back(table.referenceHash);
     const std::string text = words.dump();
     return hexHash(XXH3_64bits(text.data(), text.size()));
   }
@@ -234,8 +240,8 @@ std::string planTable(const Plan& plan) {
   double allS = 0.0, mostMiB = 0.0;
   uint64_t chunks = 0;
   bool isKnown = true;
-  for (const TaskGroup& group : plan.groups) {
-    const Task task = plan.taskOf(group, 0, 0);
+  for (const TaskGroup& group : plan.groups()) {
+    const Task task = Plan::taskOf(group, group.firstTask);
     const Asked asked = estimateOf(plan, task);
     const double groupS = asked.seconds * double(group.end - group.first) /
                           double(std::max<uint64_t>(1, task.end - task.first));

@@ -47,6 +47,7 @@ Json tablesJson(const Plan& plan) {
   for (const PlannedTable& table : plan.tables) {
     all.push_back({{"block", placeJson(table.block)},
                    {"label", table.label},
+                   {"reference_hash", table.referenceHash},
                    {"runs", table.runs},
                    {"references", table.references},
                    {"run_s", table.runS},
@@ -57,7 +58,7 @@ Json tablesJson(const Plan& plan) {
 
 Json groupsJson(const Plan& plan) {
   Json all = Json::array();
-  for (const TaskGroup& group : plan.groups) {
+  for (const TaskGroup& group : plan.groups()) {
     all.push_back({{"kind", group.isReference ? "reference" : "runs"},
                    {"of", group.of},
                    {"first", group.first},
@@ -80,6 +81,7 @@ Plan planOfJson(const Json& json) {
   plan.methods = json.at("methods").get<std::vector<std::string>>();
   plan.skipped = json.at("skipped").get<std::vector<std::string>>();
   plan.threads = json.at("threads").get<int>();
+  plan.sppOfChunk = json.at("chunk_spp").get<uint64_t>();
   plan.residentMiB = json.at("resident_mib").get<double>();
   plan.target = {json.at("target").at("spp").get<uint64_t>(),
                  json.at("target").at("relmse").get<double>(),
@@ -96,6 +98,7 @@ Plan planOfJson(const Json& json) {
   }
   for (const Json& one : json.at("tables")) {
     plan.tables.push_back({placeOf(one.at("block")), one.at("label").get<std::string>(),
+                           one.at("reference_hash").get<std::string>(),
                            one.at("runs").get<uint32_t>(),
                            one.at("references").get<std::vector<size_t>>(),
                            one.at("run_s").get<double>(), one.at("memory_mib").get<double>()});
@@ -107,7 +110,7 @@ Plan planOfJson(const Json& json) {
     const size_t count = group.isReference ? plan.references.size() : plan.tables.size();
     if (group.of >= count || group.each == 0 || group.end <= group.first)
       failInput("its groups of tasks are wrong");
-    plan.groups.push_back(group);
+    plan.add(group);
   }
   for (const PlannedTable& table : plan.tables) {
     for (const size_t reference : table.references)
@@ -144,25 +147,24 @@ void keepListed(std::vector<Item>& items, const Names& names) {
 
 }  // namespace
 
-uint64_t Plan::tasks() const {
-  uint64_t count = 0;
-  for (const TaskGroup& group : groups) count += group.tasks();
-  return count;
+void Plan::add(TaskGroup group) {
+  group.firstTask = tasks();
+  groups_.push_back(group);
 }
 
-Task Plan::taskOf(const TaskGroup& group, uint64_t number, uint64_t index) const {
-  const uint64_t first = group.first + number * group.each;
+Task Plan::taskOf(const TaskGroup& group, uint64_t index) {
+  const uint64_t first = group.first + (index - group.firstTask) * group.each;
   return {index, group.isReference, group.of, first, std::min(first + group.each, group.end)};
 }
 
 Task Plan::task(uint64_t index) const {
-  uint64_t before = 0;
-  for (const TaskGroup& group : groups) {
-    if (index < before + group.tasks()) return taskOf(group, index - before, index);
-    before += group.tasks();
-  }
-  failUsage(before == 0 ? fmt::format("--index {}: the plan has no task", index)
-                        : fmt::format("--index {}: the plan has tasks 0 to {}", index, before - 1));
+  const auto group = std::upper_bound(
+      groups_.begin(), groups_.end(), index,
+      [](uint64_t wanted, const TaskGroup& one) { return wanted < one.endTask(); });
+  if (group != groups_.end()) return taskOf(*group, index);
+  failUsage(groups_.empty()
+                ? fmt::format("--index {}: the plan has no task", index)
+                : fmt::format("--index {}: the plan has tasks 0 to {}", index, tasks() - 1));
 }
 
 std::string Plan::describe(const Task& task) const {
@@ -199,7 +201,20 @@ fs::path markFile(const fs::path& folder, uint64_t index) {
   return folder / "at-work" / fmt::format("{:06}.json", index);
 }
 
+void lookAnew(const fs::path& folder) {
+  std::error_code status;
+  const fs::directory_iterator opened(folder, status);
+}
+
+std::string changedReferenceText(const fs::path& file) {
+  return fmt::format(
+      "{}: is not the reference that was planned with: its pixels have changed; put the file back, "
+      "or plan into another folder",
+      file.string());
+}
+
 bool isThere(const fs::path& folder, const Plan& plan, const PlannedReference& reference) {
+  lookAnew(folder / "references");
   const StoredReference stored =
       readStored(referenceFileOf(folder, reference.label), reference.key);
   return stored.reference && meetsTarget(*stored.reference, plan.target);
@@ -219,6 +234,7 @@ void writePlan(const fs::path& folder, const Plan& plan) {
                      {"argv", plan.argv},
                      {"build", plan.build},
                      {"threads", plan.threads},
+                     {"chunk_spp", plan.sppOfChunk},
                      {"resident_mib", plan.residentMiB},
                      {"target",
                       {{"spp", plan.target.spp},
@@ -237,6 +253,7 @@ void writePlan(const fs::path& folder, const Plan& plan) {
 
 Plan readPlan(const fs::path& folder) {
   const fs::path file = planFile(folder);
+  lookAnew(folder);
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     failInput(fmt::format("{}: {}; `restlab plan SUITE -o {}` makes one", file.string(),

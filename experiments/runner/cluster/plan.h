@@ -33,6 +33,7 @@ struct PlannedReference {
 struct PlannedTable {
   BlockPlace block;
   std::string label;
+  std::string referenceHash;  // of the pixels of a file that the suite names; "" without one
   uint32_t runs = 0;
   std::vector<size_t> references;  // indices of those to be rendered
   double runS = 0.0;               // seconds of a run; 0: not measured
@@ -45,7 +46,9 @@ struct TaskGroup {
   size_t of = 0;  // index of the reference or the table
   // Samples per pixel of a reference, or runs of a table. The last task may have fewer.
   uint64_t first = 0, end = 0, each = 1;
+  uint64_t firstTask = 0;  // index of its first task; set by Plan::add()
   uint64_t tasks() const { return (end - first + each - 1) / each; }
+  uint64_t endTask() const { return firstTask + tasks(); }
 };
 
 // One task: a chunk of a reference, or some runs of a table.
@@ -62,21 +65,29 @@ struct Plan {
   std::string suite, file, suiteFolder, workingFolder, planned;
   std::vector<std::string> argv, scenes, methods, skipped;
   int threads = 0;
+  uint64_t sppOfChunk = 0;   // samples per pixel of a chunk, as asked for; 0: nothing was
   double residentMiB = 0.0;  // of the planning program: scenes and kernels
   ReferenceTarget target;
   std::vector<DeviceUse> devices;  // of the methods, where it was planned
   std::vector<PlannedReference> references;
   std::vector<PlannedTable> tables;
-  std::vector<TaskGroup> groups;  // references first; further chunks stand at the end
   // Files outside the folder and the labels that they get in it; not written to plan.json.
   std::vector<std::pair<std::filesystem::path, std::string>> found;
 
-  uint64_t tasks() const;
+  // Groups of tasks: references first; chunks that were added later stand at the end.
+  const std::vector<TaskGroup>& groups() const { return groups_; }
+  // Adds a group behind all others, so that tasks keep their indices.
+  void add(TaskGroup group);
+  uint64_t tasks() const { return groups_.empty() ? 0 : groups_.back().endTask(); }
   // Throws Error (badUsage) that names the last index if there is no such task.
   Task task(uint64_t index) const;
-  Task taskOf(const TaskGroup& group, uint64_t number, uint64_t index) const;
+  // `index`: of a task of the group.
+  static Task taskOf(const TaskGroup& group, uint64_t index);
   // Returns "runs 4 to 7 of cornell-box-all".
   std::string describe(const Task& task) const;
+
+ private:
+  std::vector<TaskGroup> groups_;
 };
 
 // Files of a plan's folder.
@@ -89,6 +100,13 @@ std::filesystem::path resultFile(const std::filesystem::path& folder, const Plan
 std::filesystem::path markFile(const std::filesystem::path& folder, uint64_t index);
 std::filesystem::path referenceFileOf(const std::filesystem::path& folder,
                                       const std::string& label);
+
+// Opens a folder and closes it: a network file system then asks its server for the names in it,
+// where it would otherwise say for a minute that a new file is not there.
+void lookAnew(const std::filesystem::path& folder);
+
+// Returns the line about a suite's own reference whose pixels are not those of the plan.
+std::string changedReferenceText(const std::filesystem::path& file);
 
 // Returns whether the reference is in the folder and needs no more chunks.
 bool isThere(const std::filesystem::path& folder, const Plan& plan,

@@ -38,6 +38,24 @@ std::string endText(const Mark& mark) {
   return "was killed, or its node was lost" + asked;
 }
 
+// Returns the job that was to go on with the plan and is gone, with how it ended and its log; null
+// if it waits or is at work, or if the last submission has come to its end.
+Json stopped(const fs::path& folder, const Plan& plan, const Submissions& submissions,
+             const std::vector<QueuedJob>& queue) {
+  if (submissions.all.empty() || submissions.collected == submissions.round()) return nullptr;
+  const Submission& last = submissions.all.back();
+  const std::string job = last.tasks.empty() ? last.id : "";
+  const auto isIt = [&](const QueuedJob& one) { return one.id == job; };
+  if (!job.empty() && std::any_of(queue.begin(), queue.end(), isIt)) return nullptr;
+  const auto ends =
+      job.empty() ? std::map<std::string, std::string>() : slurmEnds(folder, plan, {job});
+  const fs::path log = folder / "slurm" / (job + ".log");
+  std::error_code status;
+  return {{"job", job},
+          {"end", ends.empty() ? "" : ends.begin()->second},
+          {"log", !job.empty() && fs::exists(log, status) ? log.string() : ""}};
+}
+
 }  // namespace
 
 Json planStatus(const fs::path& folder, const Plan& plan) {
@@ -46,10 +64,10 @@ Json planStatus(const fs::path& folder, const Plan& plan) {
   std::optional<std::vector<QueuedJob>> queue;
   if (submissions.engine == "slurm") queue = slurmQueue(folder, plan);
   Json groups = Json::array(), ended = Json::array();
-  uint64_t index = 0, atWork = 0;
-  for (const TaskGroup& group : plan.groups) {
+  uint64_t atWork = 0;
+  for (const TaskGroup& group : plan.groups()) {
     uint64_t done = 0, own = 0;
-    for (uint64_t number = 0; number < group.tasks(); ++number, ++index) {
+    for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
       done += there.isDone[index];
       const auto mark = there.marks.find(index);
       if (mark == there.marks.end()) continue;
@@ -83,6 +101,8 @@ Json planStatus(const fs::path& folder, const Plan& plan) {
     std::map<std::string, uint64_t> states;
     for (const QueuedJob& job : *queue) ++states[job.state];
     status["queue"] = states;
+    if (Json job = stopped(folder, plan, submissions, *queue); !job.is_null())
+      status["stopped"] = std::move(job);
   }
   return status;
 }
@@ -107,6 +127,17 @@ std::string planStatusText(const Json& status) {
       states.push_back(fmt::format("{} {}", count.get<uint64_t>(), state));
     text += fmt::format("  queue: {}\n",
                         states.empty() ? "empty" : fmt::format("{}", fmt::join(states, ", ")));
+  }
+  if (status.contains("stopped")) {
+    const Json& job = status.at("stopped");
+    const auto word = [&](const char* key) { return job.at(key).get<std::string>(); };
+    text += fmt::format(
+        "  nothing goes on by itself: {}{}{}; `restlab submit {} --engine slurm` goes on\n",
+        word("job").empty() ? std::string("no job for it was taken")
+                            : fmt::format("job {} is gone", word("job")),
+        word("end").empty() ? "" : ": " + word("end"),
+        word("log").empty() ? "" : fmt::format(" (see {})", word("log")),
+        status.at("folder").get<std::string>());
   }
   for (const Json& one : status.at("ended_without_a_result")) {
     text += fmt::format("  task {} ({}) on {}: {}\n", number(one, "task"),

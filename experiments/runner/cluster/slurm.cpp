@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include "core/base/error.h"
@@ -22,6 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t kUsualArray = 1001;  // Slurm's MaxArraySize unless it is set
+// Runs are handed over when their references are merged, but a network file system may show these a
+// minute later on another node.
+constexpr int kWaitS = 150;
 
 // Name of all jobs of a plan in a folder: the same suite may have another one.
 std::string jobName(const fs::path& folder, const Plan& plan) {
@@ -31,29 +35,23 @@ std::string jobName(const fs::path& folder, const Plan& plan) {
   return fmt::format("restlab-{}-{:08x}", plan.id.substr(0, 8), uint32_t(hash));
 }
 
-std::string dependency(const std::vector<std::string>& after) {
-  return after.empty() ? ""
-                       : fmt::format("#SBATCH --dependency=afterany:{}\n", fmt::join(after, ":"));
+// Returns the head of a script. All of an array write to one file: one each would be thousands.
+std::string headOf(const fs::path& folder) {
+  return fmt::format(
+      "#!/bin/bash\n#SBATCH --output=\"{}/slurm/%A.log\" --open-mode=append\n#SBATCH --requeue\n",
+      folder.string());
 }
 
-// Returns the head of a script. All of an array write to one file: one each would be thousands.
-std::string headOf(const fs::path& folder, const Plan& plan, const Asked& asked,
-                   const std::vector<std::string>& after) {
-  std::string text = fmt::format(
-      "#!/bin/bash\n#SBATCH --job-name={}\n#SBATCH --output=\"{}/slurm/%A.log\" "
-      "--open-mode=append\n"
-      "#SBATCH --requeue\n",
-      jobName(folder, plan), folder.string());
-  text += dependency(after);
+// Returns the user's words, then the name by which the queue is searched, and what is asked for:
+// where the user's words ask for it, this is theirs or twice as much.
+std::string askingOf(const std::string& options, const std::string& name, const Asked& asked) {
+  std::string text = options.empty() ? "" : fmt::format("#SBATCH {}\n", options);
+  text += fmt::format("#SBATCH --job-name={}\n", name);
   if (asked.memoryMiB > 0.0)
     text += fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(asked.memoryMiB));
   if (asked.seconds > 0.0)
     text += fmt::format("#SBATCH --time={:.0f}\n", std::ceil(asked.seconds / 60.0));
   return text;
-}
-
-std::string optionsLine(const std::string& options) {
-  return options.empty() ? "" : fmt::format("#SBATCH {}\n", options);
 }
 
 uint64_t maxArraySize() {
@@ -66,6 +64,19 @@ uint64_t maxArraySize() {
   return kUsualArray;
 }
 
+std::optional<std::vector<QueuedJob>> jobsOf(const fs::path& folder, const Plan& plan,
+                                             const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"squeue", "-h",   "-r", "--me", "-n", jobName(folder, plan),
+                                    "-o",     "%i %T"};
+  words.insert(words.end(), more.begin(), more.end());
+  const CommandResult result = runCommand(words);
+  if (result.code != 0) return std::nullopt;
+  std::vector<QueuedJob> jobs;
+  std::istringstream lines(result.out);
+  for (QueuedJob job; lines >> job.id >> job.state;) jobs.push_back(job);
+  return jobs;
+}
+
 class Slurm : public Engine {
  public:
   Slurm(const fs::path& folder, const Plan& plan, const std::string& options)
@@ -73,25 +84,40 @@ class Slurm : public Engine {
     makeWritableDirectory(folder_ / "slurm");
   }
 
-  std::vector<std::string> launch(const std::vector<uint64_t>& tasks, const Asked& asked,
-                                  const std::vector<std::string>& after) override {
-    std::vector<std::string> ids;
-    for (size_t first = 0; first < tasks.size();) {
-      // An array's numbers end at MaxArraySize, whatever it has of them.
-      const uint64_t part = tasks[first] / arraySize_;
-      size_t end = first;
-      while (end < tasks.size() && tasks[end] / arraySize_ == part) ++end;
-      const std::vector<uint64_t> own(tasks.begin() + ptrdiff_t(first),
-                                      tasks.begin() + ptrdiff_t(end));
-      ids.push_back(
-          submit(slurmScript(folder_, plan_, options_, own, part * arraySize_, asked, after)));
-      first = end;
+  // An array's numbers end at MaxArraySize, whatever it has of them.
+  std::vector<std::vector<uint64_t>> parts(const std::vector<uint64_t>& tasks) const override {
+    std::vector<std::vector<uint64_t>> parts;
+    for (const uint64_t task : tasks) {
+      if (parts.empty() || parts.back().back() / arraySize_ != task / arraySize_)
+        parts.push_back({});
+      parts.back().push_back(task);
     }
-    return ids;
+    return parts;
+  }
+
+  std::string launch(const std::vector<uint64_t>& tasks, const Asked& asked) override {
+    const uint64_t offset = tasks.front() / arraySize_ * arraySize_;
+    std::vector<uint64_t> numbers;
+    for (const uint64_t task : tasks) numbers.push_back(task - offset);
+    std::string text = headOf(folder_);
+    text += fmt::format("#SBATCH --array={}\n", rangesText(numbers));
+    // A worker that uses all cores of a node is to have the node for itself.
+    text += plan_.threads > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", plan_.threads)
+                              : std::string("#SBATCH --exclusive\n");
+    text += askingOf(options_, jobName(folder_, plan_), asked);
+    if (asked.memoryMiB > 0.0)
+      text += fmt::format("export {}={:.0f}\n", kAskedMemory, asked.memoryMiB);
+    if (asked.seconds > 0.0) text += fmt::format("export {}={:.0f}\n", kAskedTime, asked.seconds);
+    return submit(text + fmt::format("exec {} --index $((SLURM_ARRAY_TASK_ID + {})) -q\n",
+                                     shellCommand({ownProgram(), "work", folder_.string(), "--wait",
+                                                   std::to_string(kWaitS)}),
+                                     offset));
   }
 
   std::string goOn(const Asked& asked, const std::vector<std::string>& after) override {
-    return submit(headOf(folder_, plan_, asked, after) + optionsLine(options_) +
+    return submit(headOf(folder_) +
+                  fmt::format("#SBATCH --dependency=afterany:{}\n", fmt::join(after, ":")) +
+                  askingOf(options_, jobName(folder_, plan_), asked) +
                   fmt::format("# What has ended without a result is asked for again, once; then "
                               "results are collected.\nexec {}\n",
                               shellCommand({ownProgram(), "submit", folder_.string(), "--engine",
@@ -99,16 +125,6 @@ class Slurm : public Engine {
   }
 
   bool hasJobs() const override { return true; }
-
-  std::string endOf(const std::string& job) const override {
-    const std::string known = runCommand({"scontrol", "-o", "show", "job", job}).out;
-    const std::string word = "JobState=";
-    if (const size_t at = known.find(word); at != std::string::npos)
-      return known.substr(at + word.size(), known.find(' ', at) - at - word.size());
-    const CommandResult accounted =
-        runCommand({"sacct", "-n", "-X", "-P", "-o", "State", "-j", job});
-    return accounted.code == 0 ? accounted.out.substr(0, accounted.out.find_first_of(" \n")) : "";
-  }
 
  private:
   std::string submit(const std::string& text) {
@@ -136,13 +152,31 @@ class Slurm : public Engine {
 }  // namespace
 
 std::optional<std::vector<QueuedJob>> slurmQueue(const fs::path& folder, const Plan& plan) {
-  const CommandResult result =
-      runCommand({"squeue", "-h", "-r", "--me", "-n", jobName(folder, plan), "-o", "%i %T"});
-  if (result.code != 0) return std::nullopt;
-  std::vector<QueuedJob> jobs;
-  std::istringstream lines(result.out);
-  for (QueuedJob job; lines >> job.id >> job.state;) jobs.push_back(job);
-  return jobs;
+  return jobsOf(folder, plan, {});
+}
+
+std::map<std::string, std::string> slurmEnds(const fs::path& folder, const Plan& plan,
+                                             const std::vector<std::string>& jobs) {
+  std::map<std::string, std::string> ends;
+  if (jobs.empty()) return ends;
+  const std::set<std::string> wanted(jobs.begin(), jobs.end());
+  const auto known = jobsOf(folder, plan, {"-t", "all"}).value_or(std::vector<QueuedJob>());
+  for (const QueuedJob& job : known)
+    if (wanted.count(job.id) != 0) ends[job.id] = job.state;
+  std::set<std::string> forgotten;  // by the number of their array
+  for (const std::string& job : jobs)
+    if (ends.count(job) == 0) forgotten.insert(job.substr(0, job.find('_')));
+  if (forgotten.empty()) return ends;
+  const CommandResult accounted = runCommand({"sacct", "-n", "-X", "-P", "-o", "JobID,State", "-j",
+                                              fmt::format("{}", fmt::join(forgotten, ","))});
+  std::istringstream lines(accounted.code == 0 ? accounted.out : "");
+  for (std::string line; std::getline(lines, line);) {
+    const size_t bar = line.find('|');
+    if (bar == std::string::npos) continue;
+    // "CANCELLED by 1000"
+    ends.emplace(line.substr(0, bar), line.substr(bar + 1, line.find(' ', bar) - bar - 1));
+  }
+  return ends;
 }
 
 std::unique_ptr<Engine> makeSlurm(const fs::path& folder, const Plan& plan,
@@ -159,24 +193,6 @@ std::unique_ptr<Engine> makeSlurm(const fs::path& folder, const Plan& plan,
                           firstLineOf(answers.err.empty() ? answers.out : answers.err)));
   }
   return std::make_unique<Slurm>(folder, plan, options);
-}
-
-std::string slurmScript(const fs::path& folder, const Plan& plan, const std::string& options,
-                        const std::vector<uint64_t>& tasks, uint64_t offset, const Asked& asked,
-                        const std::vector<std::string>& after) {
-  std::vector<uint64_t> numbers;
-  for (const uint64_t task : tasks) numbers.push_back(task - offset);
-  std::string text = headOf(folder, plan, asked, after);
-  text += fmt::format("#SBATCH --array={}\n", rangesText(numbers));
-  // A worker that uses all cores of a node is to have the node for itself.
-  text += plan.threads > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", plan.threads)
-                           : std::string("#SBATCH --exclusive\n");
-  text += optionsLine(options);
-  if (asked.memoryMiB > 0.0)
-    text += fmt::format("export {}={:.0f}\n", kAskedMemory, asked.memoryMiB);
-  if (asked.seconds > 0.0) text += fmt::format("export {}={:.0f}\n", kAskedTime, asked.seconds);
-  return text + fmt::format("exec {} --index $((SLURM_ARRAY_TASK_ID + {})) -q\n",
-                            shellCommand({ownProgram(), "work", folder.string()}), offset);
 }
 
 }  // namespace restlab

@@ -52,6 +52,16 @@ int Submissions::attempts(uint64_t task) const {
   }));
 }
 
+bool Submissions::isOfRound(const Mark& mark, uint64_t task) const {
+  const std::string job = mark.job.substr(0, mark.job.find('_'));
+  return std::any_of(all.begin(), all.end(), [&](const Submission& one) {
+    if (one.round != round() || !std::binary_search(one.tasks.begin(), one.tasks.end(), task))
+      return false;
+    // Processes here have no ids, but one clock.
+    return one.id.empty() ? mark.started >= one.written : one.id == job;
+  });
+}
+
 Submissions readSubmissions(const fs::path& folder) {
   Submissions submissions;
   std::ifstream in(submissionsFile(folder), std::ios::binary);
@@ -60,6 +70,7 @@ Submissions readSubmissions(const fs::path& folder) {
     const Json json = Json::parse(in);
     submissions.engine = json.at("engine").get<std::string>();
     submissions.options = json.at("options").get<std::string>();
+    submissions.collected = json.at("collected").get<uint64_t>();
     for (const Json& one : json.at("submissions")) {
       submissions.all.push_back(
           {one.at("id").get<std::string>(),
@@ -86,6 +97,7 @@ void writeSubmissions(const fs::path& folder, const Submissions& submissions) {
   }
   const Json json = {{"engine", submissions.engine},
                      {"options", submissions.options},
+                     {"collected", submissions.collected},
                      {"submissions", std::move(all)}};
   writeTextFile(submissionsFile(folder), jsonWithoutControls(json.dump(1)) + "\n");
 }

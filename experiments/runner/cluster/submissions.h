@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/cluster/asked.h"
+#include "experiments/runner/cluster/mark.h"
 
 namespace restlab {
 
@@ -20,11 +20,14 @@ struct Submission {
 struct Submissions {
   std::string engine, options;  // options: of --sbatch
   std::vector<Submission> all;
+  uint64_t collected = 0;  // the last round at whose end results were collected
 
   uint64_t round() const { return all.empty() ? 0 : all.back().round; }
   // Returns how often the task was handed over in the last round, and what it asked for last.
   int attempts(uint64_t task) const;
   const Submission* last(uint64_t task) const;
+  // Returns whether a mark of the task was made by an attempt of the last round, not before.
+  bool isOfRound(const Mark& mark, uint64_t task) const;
 };
 
 // Returns nothing handed over if there is no file. Throws Error (badInput) naming a damaged file.

@@ -10,8 +10,11 @@
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/base/print.h"
+#include "experiments/runner/cluster/engine.h"
+#include "experiments/runner/cluster/planned_reference.h"
+#include "experiments/runner/cluster/sbatch_options.h"
 #include "experiments/runner/cluster/tasks_there.h"
-#include "experiments/runner/cluster/work.h"
+#include "experiments/runner/reference/reference_chunk.h"
 
 namespace restlab {
 
@@ -22,12 +25,18 @@ namespace {
 constexpr int kMostAttempts = 2;
 constexpr double kAgain = 2.0;  // times the memory and the time
 
-// Time and memory of the job that goes on: it merges references, and makes tables.
-constexpr Asked kGoOn = {3600.0, 0.0};
+// Time of the job that goes on, which merges references and makes tables, in a small plan.
+constexpr double kGoOnS = 3600.0;
+
+// Bytes a second that it reads at least, from a file system that others use, and a task's share of
+// tables and report.
+constexpr double kBytesPerS = 50e6, kTaskS = 0.1;
 
 std::string askedText(const Asked& asked) {
-  if (asked.memoryMiB == 0.0 && asked.seconds == 0.0) return "nothing";
-  return fmt::format("{:.0f} MiB and {:.0f} min", asked.memoryMiB, asked.seconds / 60.0);
+  std::vector<std::string> parts;
+  if (asked.memoryMiB > 0.0) parts.push_back(fmt::format("{:.0f} MiB", asked.memoryMiB));
+  if (asked.seconds > 0.0) parts.push_back(fmt::format("{:.0f} min", asked.seconds / 60.0));
+  return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, " and "));
 }
 
 class Submitter {
@@ -52,19 +61,26 @@ class Submitter {
     submissions_.options = options_;
   }
 
-  std::optional<Collected> submit() {
+  Submitted submit() {
     while (true) {
       finishReferences();
-      const std::vector<std::string> jobs = launchMissing();
-      if (jobs.empty() && !isLaunched_) break;
-      if (engine_->hasJobs()) {
-        Submission next{engine_->goOn(askedToGoOn(), jobs), {}, askedToGoOn(), round_, utcNow()};
-        print("{} goes on when they have ended\n", next.id);
-        keep(std::move(next));
-        return std::nullopt;
+      std::optional<Error> refusal;
+      try {
+        launchMissing();
+      } catch (const Error& error) {
+        if (submitted_.jobs.empty()) throw;
+        refusal = error;  // jobs are in the queue already, and something is to go on after them
       }
+      if (engine_->hasJobs() && !submitted_.jobs.empty()) {
+        goOnAfter(refusal);
+        return std::move(submitted_);
+      }
+      if (!isLaunched_) break;
     }
-    return collectResults(folder_, plan_, folder_);
+    submitted_.collected = collectResults(folder_, plan_, folder_);
+    submissions_.collected = round_;
+    writeSubmissions(folder_, submissions_);
+    return std::move(submitted_);
   }
 
  private:
@@ -80,110 +96,190 @@ class Submitter {
                     folder_.string(), counted(queue->size(), "job"), queue->front().id));
   }
 
-  // Memory for a merge of the largest reference.
-  Asked askedToGoOn() const {
-    Asked asked = kGoOn;
-    if (plan_.residentMiB == 0.0) return {};
-    for (const PlannedReference& reference : plan_.references) {
-      const double own = double(reference.pixels) * double(referenceBytesPerPixel(plan_.target));
-      asked.memoryMiB = std::max(asked.memoryMiB, own / kMiB);
+  // Hands over the job that goes on. `refusal`: of a part of the tasks.
+  void goOnAfter(const std::optional<Error>& refusal) {
+    std::vector<std::string> ids;
+    for (const Submission& job : submitted_.jobs) ids.push_back(job.id);
+    const std::string there =
+        fmt::format("{}, {} first, {} in the queue", counted(ids.size(), "job"), ids.front(),
+                    ids.size() == 1 ? "is" : "are");
+    try {
+      const Asked asked = askedToGoOn();
+      keepJob({engine_->goOn(asked, ids), {}, asked, round_, utcNow()});
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  fmt::format("{}; {}: when they have ended, `restlab submit {} --engine slurm` "
+                              "goes on",
+                              refusal ? refusal->what() : error.what(), there, folder_.string()));
     }
-    asked.memoryMiB += 1024.0 + plan_.residentMiB;
-    return asked;
+    const std::string& next = submitted_.jobs.back().id;
+    if (request_.prints) print("{} goes on when they have ended\n", next);
+    if (!refusal) return;
+    throw Error(refusal->code(),
+                fmt::format("{}; {}, and job {} goes on with the rest when they have ended",
+                            refusal->what(), there, next));
+  }
+
+  // Memory for a merge of the largest reference, and time to read all chunks and jobs.
+  Asked askedToGoOn() const {
+    Asked asked;
+    if (plan_.residentMiB > 0.0) {
+      double bytes = 0.0;
+      for (const TaskGroup& group : plan_.groups()) {
+        if (!group.isReference) continue;
+        bytes += double(plan_.references[group.of].pixels) *
+                 double(chunkFileBytesPerPixel(group.end - group.first));
+      }
+      asked.seconds = kGoOnS + bytes / kBytesPerS + double(plan_.tasks()) * kTaskS;
+      for (const PlannedReference& reference : plan_.references) {
+        const double own = double(reference.pixels) * double(referenceBytesPerPixel(plan_.target));
+        asked.memoryMiB = std::max(asked.memoryMiB, own / kMiB);
+      }
+      asked.memoryMiB += 1024.0 + plan_.residentMiB;
+    }
+    return ofUser(asked, 1.0);
+  }
+
+  Asked ofUser(const Asked& asked, double times) const {
+    return engine_->hasJobs() ? withOptions(asked, options_, times) : asked;
   }
 
   // Merges references with all their chunks, and adds chunks to those that are not good enough.
   void finishReferences() {
     bool isChanged = false;
     std::vector<Suite> points;
+    isReady_.assign(plan_.references.size(), false);
     for (size_t r = 0; r < plan_.references.size(); ++r) {
       const PlannedReference& planned = plan_.references[r];
-      if (planned.isWhole || !missingChunks(folder_, plan_, r).empty()) continue;
-      if (isThere(folder_, plan_, planned)) continue;
+      isReady_[r] = isThere(folder_, plan_, planned);
+      if (isReady_[r] || planned.isWhole || !missingChunks(folder_, plan_, r).empty()) continue;
       if (points.empty()) points = openPlan(folder_, plan_);
-      const Reference merged = plannedReference(folder_, plan_, planned, neededOf(points, planned));
-      if (meetsTarget(merged, plan_.target)) continue;
-      TaskGroup more = lastChunks(r);
-      more.first = more.end;
-      more.end = sppExpected(merged, plan_.target);
-      if (more.end <= more.first) continue;
-      more.each = sppOfChunk(more.end - more.first, 0);
-      logInfo(fmt::format(
-          "reference {}: {} spp are not enough for a relmse of {:g} (since half of them: {:.3g}); "
-          "{} more",
-          planned.label, merged.spp, plan_.target.relmse, merged.relmseSinceHalf,
-          counted(more.tasks(), "chunk")));
-      plan_.groups.push_back(more);
-      isChanged = true;
+      const std::optional<Reference> merged =
+          mergedReference(folder_, plan_, r, neededOf(points, planned));
+      if (!merged) continue;
+      isReady_[r] = meetsTarget(*merged, plan_.target);
+      if (!isReady_[r] && addChunks(r, *merged)) isChanged = true;
     }
     if (isChanged) writePlan(folder_, plan_);
   }
 
+  // Returns whether there was a chunk to add.
+  bool addChunks(size_t reference, const Reference& merged) {
+    TaskGroup more = lastChunks(reference);
+    more.first = more.end;
+    more.end = sppExpected(merged, plan_.target);
+    if (more.end <= more.first) return false;
+    more.each = sppOfChunk(more.end - more.first, plan_.sppOfChunk);
+    logInfo(fmt::format(
+        "reference {}: {} spp are not enough for a relmse of {:g} (since half of them: {:.3g}); "
+        "{} more",
+        plan_.references[reference].label, merged.spp, plan_.target.relmse, merged.relmseSinceHalf,
+        counted(more.tasks(), "chunk")));
+    plan_.add(more);
+    return true;
+  }
+
   TaskGroup lastChunks(size_t reference) const {
     TaskGroup last;
-    for (const TaskGroup& group : plan_.groups)
+    for (const TaskGroup& group : plan_.groups())
       if (group.isReference && group.of == reference) last = group;
     return last;
   }
 
-  // Hands over what is missing and may be tried. Returns the ids of jobs.
-  std::vector<std::string> launchMissing() {
+  // Hands over what is missing and may be tried: runs once their references are merged.
+  void launchMissing() {
     isLaunched_ = false;
     const TasksThere there = tasksThere(folder_, plan_);
-    // By what they ask for: as estimated, or more.
-    std::map<double, std::vector<uint64_t>> chunks, runs;
+    std::vector<Task> missing;
     for (const uint64_t index : there.missing()) {
       const Task task = plan_.task(index);
-      const std::optional<double> times = timesToAsk(task, there);
-      if (times) (task.isReference ? chunks : runs)[*times].push_back(index);
+      if (task.isReference || hasReferences(task)) missing.push_back(task);
     }
-    std::vector<std::string> ids;
-    for (const auto& [times, tasks] : chunks) launch(tasks, times, {}, ids);
-    // Where the error decides, nobody knows yet which chunks there will be.
-    if (!chunks.empty() && plan_.target.relmse > 0.0) return ids;
-    const std::vector<std::string> after = ids;
-    for (const auto& [times, tasks] : runs) launch(tasks, times, after, ids);
-    return ids;
+    const std::map<std::string, std::string> ends = endsOfLost(missing, there);
+    // By what they ask for: as estimated, or more.
+    std::map<double, std::vector<uint64_t>> chunks, runs;
+    for (const Task& task : missing) {
+      const std::optional<double> times = timesToAsk(task, there, ends);
+      if (times) (task.isReference ? chunks : runs)[*times].push_back(task.index);
+    }
+    for (const auto* kind : {&chunks, &runs})
+      for (const auto& [times, tasks] : *kind) launch(tasks, times);
   }
 
-  void launch(const std::vector<uint64_t>& indices, double times,
-              const std::vector<std::string>& after, std::vector<std::string>& ids) {
+  bool hasReferences(const Task& task) const {
+    const std::vector<size_t>& needed = plan_.tables[task.of].references;
+    return std::all_of(needed.begin(), needed.end(), [&](size_t r) { return isReady_[r]; });
+  }
+
+  Asked askedOf(const std::vector<Task>& tasks, double times) const {
+    return ofUser(askedFor(plan_, tasks, times), times);
+  }
+
+  // Each id is kept before the next is asked for.
+  void launch(const std::vector<uint64_t>& indices, double times) {
     std::vector<Task> tasks;
     for (const uint64_t index : indices) tasks.push_back(plan_.task(index));
-    const Asked asked = askedFor(plan_, tasks, times);
-    isLaunched_ = true;
-    if (!engine_->hasJobs()) keep({"", indices, asked, round_, utcNow()});
-    const std::vector<std::string> own = engine_->launch(indices, asked, after);
-    if (own.empty()) return;
-    const std::string names = fmt::format("{}", fmt::join(own, " "));
-    printText(fmt::format("{}: {}, tasks {}, each with {} asked for\n", names,
-                          tasks.front().isReference ? "references" : "runs", rangesText(indices),
-                          askedText(asked)));
-    keep({names, indices, asked, round_, utcNow()});
-    ids.insert(ids.end(), own.begin(), own.end());
+    const Asked asked = askedOf(tasks, times);
+    for (const std::vector<uint64_t>& part : engine_->parts(indices)) {
+      isLaunched_ = true;
+      if (!engine_->hasJobs()) {
+        keep({"", part, asked, round_, utcNow()});
+        engine_->launch(part, asked);
+        continue;
+      }
+      keepJob({engine_->launch(part, asked), part, asked, round_, utcNow()});
+      if (!request_.prints) continue;
+      printText(fmt::format("{}: {}, tasks {}, each with {} asked for\n", submitted_.jobs.back().id,
+                            tasks.front().isReference ? "references" : "runs", rangesText(part),
+                            askedText(asked)));
+    }
+  }
+
+  // Returns the mark that an attempt of this round has left; null if none began.
+  const Mark* markOf(const Task& task, const TasksThere& there) const {
+    const auto mark = there.marks.find(task.index);
+    return mark != there.marks.end() && submissions_.isOfRound(mark->second, task.index)
+               ? &mark->second
+               : nullptr;
+  }
+
+  std::map<std::string, std::string> endsOfLost(const std::vector<Task>& tasks,
+                                                const TasksThere& there) const {
+    std::vector<std::string> lost;
+    for (const Task& task : tasks) {
+      const Mark* mark = markOf(task, there);
+      if (mark && mark->error.empty() && !mark->job.empty()) lost.push_back(mark->job);
+    }
+    return engine_->hasJobs() ? slurmEnds(folder_, plan_, lost)
+                              : std::map<std::string, std::string>();
   }
 
   // Returns the factor on what the task asks for; nothing if it is not to be tried again.
-  std::optional<double> timesToAsk(const Task& task, const TasksThere& there) const {
+  std::optional<double> timesToAsk(const Task& task, const TasksThere& there,
+                                   const std::map<std::string, std::string>& ends) const {
     const int attempts = submissions_.round() == round_ ? submissions_.attempts(task.index) : 0;
     if (attempts == 0) return 1.0;
-    const auto mark = there.marks.find(task.index);
-    // Without a mark it never began: its references failed, or its node did.
-    if (mark == there.marks.end())
-      return attempts < kMostAttempts ? std::optional<double>(1.0) : std::nullopt;
-    if (!mark->second.error.empty()) return std::nullopt;
-    const Submission* last = submissions_.last(task.index);
-    const std::string end = mark->second.job.empty() ? "" : engine_->endOf(mark->second.job);
     const bool isAgain = attempts < kMostAttempts;
-    const Asked again = askedFor(plan_, {task}, kAgain);
-    const bool isAsked = last->asked.memoryMiB > 0.0 || last->asked.seconds > 0.0;
-    logWarning(fmt::format("task {} ({}) ended without a result on {}{}, with {} asked for; {}",
-                           task.index, plan_.describe(task), mark->second.node,
-                           end.empty() ? "" : ": " + end, askedText(last->asked),
-                           !isAgain  ? "it is not tried again"
-                           : isAsked ? fmt::format("it is tried again with {}", askedText(again))
-                                     : "it is tried again"));
+    const Mark* mark = markOf(task, there);
+    // Without a mark it never began, or its chunk was damaged.
+    if (!mark) return isAgain ? std::optional<double>(1.0) : std::nullopt;
+    if (!mark->error.empty()) return std::nullopt;
+    const Asked& last = submissions_.last(task.index)->asked;
+    const auto end = ends.find(mark->job);
+    const bool isAsked = last.memoryMiB > 0.0 || last.seconds > 0.0;
+    logWarning(fmt::format(
+        "task {} ({}) ended without a result on {}{}, with {} asked for; {}", task.index,
+        plan_.describe(task), mark->node, end == ends.end() ? "" : ": " + end->second,
+        askedText(last),
+        !isAgain  ? "it is not tried again"
+        : isAsked ? fmt::format("it is tried again with {}", askedText(askedOf({task}, kAgain)))
+                  : "it is tried again"));
     return isAgain ? std::optional<double>(kAgain) : std::nullopt;
+  }
+
+  void keepJob(Submission one) {
+    submitted_.jobs.push_back(one);
+    keep(std::move(one));
   }
 
   void keep(Submission one) {
@@ -198,12 +294,14 @@ class Submitter {
   std::string options_;
   uint64_t round_ = 0;
   std::unique_ptr<Engine> engine_;
+  std::vector<bool> isReady_;  // by reference: merged, and good enough
   bool isLaunched_ = false;
+  Submitted submitted_;
 };
 
 }  // namespace
 
-std::optional<Collected> submitPlan(const SubmitRequest& request, Plan plan) {
+Submitted submitPlan(const SubmitRequest& request, Plan plan) {
   return Submitter(request, std::move(plan)).submit();
 }
 

@@ -155,9 +155,7 @@ void packTask(const fs::path& file, Json head, const fs::path& folder) {
   } catch (const Error&) {
     if (out.stream()) throw;  // else commit() has the reason
   }
-  std::error_code status;
-  if (fs::exists(file, status) && whyDamaged(file).empty()) return;
-  out.commit();
+  if (!out.commitNew() && !whyDamaged(file).empty()) out.commit();
 }
 
 Json readTaskHead(const fs::path& file) {

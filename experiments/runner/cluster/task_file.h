@@ -9,8 +9,8 @@
 namespace restlab {
 
 // Packs the files below `folder` into `file`. `head`: contents of task.json, which gets the sizes
-// and hashes of all files. A sound file that is there already stays, whoever wrote it. Throws Error
-// (badInput) that names the file, e.g. if the disk is full.
+// and hashes of all files. Of several writers the first one's file stays, if it is sound. Throws
+// Error (badInput) that names the file, e.g. if the disk is full.
 void packTask(const std::filesystem::path& file, nlohmann::ordered_json head,
               const std::filesystem::path& folder);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/image/io/atomic_file.h"
+
 namespace restlab {
 
 namespace fs = std::filesystem;
@@ -42,11 +44,10 @@ TasksThere tasksThere(const fs::path& folder, const Plan& plan) {
   };
   TasksThere there;
   there.isDone.reserve(plan.tasks());
-  for (const TaskGroup& group : plan.groups) {
+  for (const TaskGroup& group : plan.groups()) {
     std::optional<bool> isMerged;  // asked for once: the file has to be read
-    for (uint64_t number = 0; number < group.tasks(); ++number) {
-      const uint64_t index = there.isDone.size();
-      const Task task = plan.taskOf(group, number, index);
+    for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
+      const Task task = Plan::taskOf(group, index);
       bool isDone = isThereFile(resultFile(folder, plan, task));
       if (!isDone && group.isReference) {
         if (!isMerged) isMerged = isThere(folder, plan, plan.references[group.of]);
@@ -59,6 +60,30 @@ TasksThere tasksThere(const fs::path& folder, const Plan& plan) {
     }
   }
   return there;
+}
+
+void removeLeftovers(const fs::path& folder, const Plan& plan, const TasksThere& there) {
+  std::set<fs::path> leftovers;
+  for (const char* name : {"done", "chunks", "references", "at-work"})
+    for (const std::string& file : namesIn(folder / name))
+      if (file.find(kTemporary) != std::string::npos) leftovers.insert(folder / name / file);
+  if (leftovers.empty()) return;
+  const std::set<std::string> atWork = namesIn(folder / "at-work");
+  for (const TaskGroup& group : plan.groups()) {
+    for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
+      const fs::path mark = markFile(folder, index);
+      if (!there.isDone[index] || atWork.count(mark.filename().string()) != 0) continue;
+      const Task task = Plan::taskOf(group, index);
+      for (const fs::path& file : {resultFile(folder, plan, task), mark}) {
+        const std::string beginning = file.string() + kTemporary;
+        for (auto one = leftovers.lower_bound(beginning);
+             one != leftovers.end() && one->string().rfind(beginning, 0) == 0; ++one) {
+          std::error_code ignored;
+          fs::remove(*one, ignored);
+        }
+      }
+    }
+  }
 }
 
 std::string rangesText(const std::vector<uint64_t>& numbers) {

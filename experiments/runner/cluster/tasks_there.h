@@ -20,6 +20,11 @@ struct TasksThere {
 // Reads names of files alone, and the marks of tasks that are not done.
 TasksThere tasksThere(const std::filesystem::path& folder, const Plan& plan);
 
+// Removes what killed workers have left beside the results of tasks that are done and at which
+// nobody is at work: files FILE.tmp-...
+void removeLeftovers(const std::filesystem::path& folder, const Plan& plan,
+                     const TasksThere& there);
+
 // Returns "0-3,7" for sorted numbers.
 std::string rangesText(const std::vector<uint64_t>& numbers);
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "core/base/error.h"
 #include "experiments/runner/base/build_info.h"
@@ -13,6 +15,7 @@
 #include "experiments/runner/base/interrupt.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/cluster/mark.h"
+#include "experiments/runner/cluster/planned_reference.h"
 #include "experiments/runner/cluster/task_file.h"
 #include "experiments/runner/run/block.h"
 #include "experiments/runner/run/block_label.h"
@@ -79,15 +82,6 @@ std::vector<DeviceUse> devicesHere(const Plan& plan, const std::vector<DeviceUse
   return devices;
 }
 
-std::string numbersText(const std::vector<uint64_t>& numbers) {
-  constexpr size_t kMost = 8;
-  std::string text;
-  for (size_t i = 0; i < std::min(numbers.size(), kMost); ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
-  if (numbers.size() > kMost) text += fmt::format(" and {} more", numbers.size() - kMost);
-  return text;
-}
-
 bool workReference(const fs::path& folder, const Plan& plan, const Task& task) {
   const PlannedReference& planned = plan.references[task.of];
   const std::vector<Suite> points = openPlan(folder, plan);
@@ -99,26 +93,39 @@ bool workReference(const fs::path& folder, const Plan& plan, const Task& task) {
   if (!planned.isWhole) {
     const bool isMade =
         renderChunk(needed.scene, needed.config, {task.first, task.end - task.first},
-                    resultFile(folder, plan, task));
+                    resultFile(folder, plan, task), plan.target);
     // Whoever makes the last chunk merges them, or every worker of a table would.
     if (missingChunks(folder, plan, task.of).empty() && !isThere(folder, plan, planned))
-      plannedReference(folder, plan, planned, needed);
+      mergedReference(folder, plan, task.of, needed);
     return isMade;
   }
   obtainReference(needed.scene, needed.config, plan.target, folder / "references", needed.label);
   return true;
 }
 
-// Says at once which chunks are missing, before scenes are loaded, and before there is a mark: the
-// task has not begun.
-void requireReferences(const fs::path& folder, const Plan& plan, const Task& task) {
+// Says which chunks are missing, before scenes are loaded, and before there is a mark: the task has
+// not begun. `waitS`: the references are there, says whoever handed the task over; how long to wait
+// until they can be seen here.
+void requireReferences(const fs::path& folder, const Plan& plan, const Task& task, double waitS) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
   for (const size_t index : plan.tables[task.of].references) {
     const PlannedReference& planned = plan.references[index];
+    const fs::path file = referenceFileOf(folder, planned.label);
+    std::error_code status;
+    bool isSeen = fs::exists(file, status), isSaid = false;
+    while (!isSeen && std::chrono::duration<double>(Clock::now() - start).count() < waitS) {
+      if (!std::exchange(isSaid, true))
+        logInfo(fmt::format("{}: is not to be seen here yet; waits {:g} s", file.string(), waitS));
+      throwIfInterrupted("the task has not begun");
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      lookAnew(folder / "references");
+      isSeen = fs::exists(file, status);
+    }
     const std::vector<uint64_t> missing = missingChunks(folder, plan, index);
     if (missing.empty() || isThere(folder, plan, planned)) continue;
-    failInput(fmt::format("{}: {}: reference {} is not there; tasks that are not done: {}",
-                          folder.string(), plan.describe(task), planned.label,
-                          numbersText(missing)));
+    failInput(fmt::format("{}: {}: {}", folder.string(), plan.describe(task),
+                          notThereText(plan, index, missing)));
   }
 }
 
@@ -148,6 +155,7 @@ class TableWork {
     takeReferences(
         suite, scene, prepared,
         [&](const NeededReference& needed) { return obtain(suite, needed); }, block);
+    requirePlannedFile(block);
     keepReference(block);
     devices_ = devicesHere(plan_, checks.front().devices);
     makeJobs(suite, prepared, block);
@@ -159,17 +167,33 @@ class TableWork {
     StoredReference stored = readStored(referenceFileOf(folder_, needed.label), key);
     if (stored.reference && meetsTarget(*stored.reference, suite.target))
       return std::move(*stored.reference);
-    for (const PlannedReference& planned : plan_.references) {
+    for (size_t index = 0; index < plan_.references.size(); ++index) {
+      const PlannedReference& planned = plan_.references[index];
       if (planned.key != key) continue;
-      Reference merged = plannedReference(folder_, plan_, planned, needed);
-      if (meetsTarget(merged, suite.target)) return merged;
+      if (planned.isWhole) {
+        return obtainReference(needed.scene, needed.config, suite.target, folder_ / "references",
+                               planned.label);
+      }
+      std::optional<Reference> merged = mergedReference(folder_, plan_, index, needed);
+      if (!merged) {
+        failInput(fmt::format("{}: {}", folder_.string(),
+                              notThereText(plan_, index, missingChunks(folder_, plan_, index))));
+      }
+      if (meetsTarget(*merged, suite.target)) return std::move(*merged);
       failInput(
           fmt::format("{0}: reference {1} has {2} spp, which are not enough for its target yet; "
                       "`restlab submit {0}` adds chunks until they are",
-                      folder_.string(), planned.label, merged.spp));
+                      folder_.string(), planned.label, merged->spp));
     }
     failInput(fmt::format("{}: is not the reference of this scene and these settings; plan again",
                           referenceFileOf(folder_, needed.label).string()));
+  }
+
+  // Refuses a file of the suite that is not what it was: errors of one table would be against two.
+  void requirePlannedFile(const BlockResult& block) const {
+    const std::string& planned = plan_.tables[task_.of].referenceHash;
+    if (planned.empty() || referenceHash(block.reference) == planned) return;
+    failInput(changedReferenceText(block.referenceFile));
   }
 
   // Leaves the file that the folder of results names.
@@ -223,6 +247,7 @@ class TableWork {
               {"width", block.width},
               {"height", block.height},
               {"reference", block.referenceFile},
+              {"reference_hash", reference},
               {"warnings", warningsOf(suite, prepared, block)},
               {"jobs", jobs},
               {"images", images}},
@@ -239,52 +264,10 @@ class TableWork {
 
 }  // namespace
 
-std::vector<uint64_t> missingChunks(const fs::path& folder, const Plan& plan, size_t reference) {
-  std::vector<uint64_t> missing;
-  uint64_t index = 0;
-  for (const TaskGroup& group : plan.groups) {
-    const bool isOwn = group.isReference && group.of == reference;
-    for (uint64_t number = 0; isOwn && number < group.tasks(); ++number) {
-      std::error_code status;
-      const Task task = plan.taskOf(group, number, index + number);
-      if (!fs::exists(resultFile(folder, plan, task), status)) missing.push_back(task.index);
-    }
-    index += group.tasks();
-  }
-  return missing;
-}
-
-NeededReference neededOf(const std::vector<Suite>& points, const PlannedReference& planned) {
-  const Suite& point = points.at(planned.block.point);
-  const SuiteScene& scene = point.scenes.at(planned.block.scene);
-  const Suite suite = ofScene(point, scene);
-  const PreparedScene prepared = prepareScene(scene.request);
-  const BlockResult block = blockOf(suite, scene, prepared, planned.block.component);
-  return renderedReferences(suite, scene, prepared, block).at(planned.number);
-}
-
-Reference plannedReference(const fs::path& folder, const Plan& plan,
-                           const PlannedReference& planned, const NeededReference& needed) {
-  StoredReference stored = readStored(referenceFileOf(folder, planned.label), planned.key);
-  if (stored.reference && meetsTarget(*stored.reference, plan.target))
-    return std::move(*stored.reference);
-  if (planned.isWhole) {
-    return obtainReference(needed.scene, needed.config, plan.target, folder / "references",
-                           planned.label);
-  }
-  std::vector<fs::path> files;
-  for (const TaskGroup& group : plan.groups) {
-    if (!group.isReference || &plan.references[group.of] != &planned) continue;
-    for (uint64_t number = 0; number < group.tasks(); ++number)
-      files.push_back(resultFile(folder, plan, plan.taskOf(group, number, 0)));
-  }
-  const ReferenceState state = mergeChunks(needed.scene, needed.config, {}, files, plan.target);
-  return storeMerged(needed.scene, needed.config, state, folder / "references", planned.label);
-}
-
-bool workTask(const fs::path& folder, const Plan& plan, uint64_t index) {
+bool workTask(const fs::path& folder, const Plan& plan, uint64_t index, double waitS) {
   const Task task = plan.task(index);
   const fs::path result = resultFile(folder, plan, task);
+  lookAnew(result.parent_path());
   std::error_code status;
   if (fs::exists(result, status)) {
     // Files of chunks are checked by renderChunk().
@@ -295,7 +278,7 @@ bool workTask(const fs::path& folder, const Plan& plan, uint64_t index) {
   if (!fs::is_directory(folder / "at-work", status))
     failInput(fmt::format("{}: is not there (has the shared folder gone?)",
                           (folder / "at-work").string()));
-  if (!task.isReference) requireReferences(folder, plan, task);
+  if (!task.isReference) requireReferences(folder, plan, task, waitS);
   TaskMark mark(folder, index);
   bool isMade = true;
   try {

@@ -16,6 +16,7 @@
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/reference/reference_chunk_file.h"
 #include "experiments/runner/reference/reference_halves.h"
+#include "experiments/runner/reference/reference_stop.h"
 
 namespace restlab {
 
@@ -24,20 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 uint64_t wholeBlocks(uint64_t spp) { return (spp + kBlockSpp - 1) / kBlockSpp * kBlockSpp; }
-
-// Returns why the file does not hold these samples; "" if it does.
-std::string whyNotThere(const fs::path& file, const ReferenceId& id, const ChunkRange& range) {
-  try {
-    ChunkReader reader(file);
-    const ChunkInfo& info = reader.info();
-    if (info.id != id || info.range != range)
-      return fmt::format("{}: is of another reference, seed, backend or range", file.string());
-    reader.requireUndamaged();
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
 
 // Renders the next sample, unless a signal has come.
 void addSample(ReferenceHalves& halves, Progress& progress, const fs::path& file) {
@@ -100,14 +87,37 @@ uint64_t sppExpected(const Reference& reference, const ReferenceTarget& target) 
 
 ChunkInfo readChunkInfo(const fs::path& file) { return ChunkReader(file).info(); }
 
+std::string whyNotChunk(const PreparedScene& prepared, const ReferenceConfig& config,
+                        const ChunkRange& range, const fs::path& file,
+                        const ReferenceTarget& target) {
+  try {
+    ChunkReader reader(file);
+    const ChunkInfo& info = reader.info();
+    const ReferenceId id{referenceKey(prepared, config), config.seed, config.backend};
+    bool isOwn = info.id == id && info.range == range;
+    if (info.id == id && range.firstSpp == 0 && info.range.firstSpp == 0 &&
+        info.range.spp < std::min(range.spp, kBlockSpp)) {
+      ReferenceState state;
+      reader.addNext(state);
+      isOwn = ReferenceStop(prepared, config, target).isReached(state);
+    }
+    if (!isOwn)
+      return fmt::format("{}: is of another reference, seed, backend or range", file.string());
+    reader.requireUndamaged();
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 bool renderChunk(const PreparedScene& prepared, const ReferenceConfig& config,
-                 const ChunkRange& range, const fs::path& file) {
+                 const ChunkRange& range, const fs::path& file, const ReferenceTarget& target) {
   if (const std::string why = whyNoRange(range); !why.empty())
     failUsage("a chunk of a reference: " + why);
   const ReferenceId id{referenceKey(prepared, config), config.seed, config.backend};
   std::error_code status;
   if (fs::exists(file, status)) {
-    const std::string why = whyNotThere(file, id, range);
+    const std::string why = whyNotChunk(prepared, config, range, file, target);
     if (why.empty()) {
       logInfo(fmt::format("{}: has these samples already, and stays as it is", file.string()));
       return false;
@@ -123,13 +133,17 @@ bool renderChunk(const PreparedScene& prepared, const ReferenceConfig& config,
   ChunkInfo info = {id,  range,         config.width,     config.height,
                     0.0, block.devices, block.rayTracing, pictureWords(prepared, config)};
   RelmseChecks checks;
+  const ReferenceStop stop(prepared, config, target);
   Progress progress(fmt::format("samples {}:{}", range.firstSpp, range.spp), range.spp);
-  for (uint64_t done = 1; done <= range.spp; ++done) {
+  for (uint64_t done = 1; done <= info.range.spp; ++done) {
     addSample(halves, progress, file);
     const bool isFirstBlock = range.firstSpp == 0 && done <= kBlockSpp;
-    if (isFirstBlock) addDueCheck(block);
+    if (isFirstBlock) {
+      addDueCheck(block);
+      if (stop.isReached(block)) info.range.spp = done;
+    }
     progress.update(done);
-    if (done % kBlockSpp != 0 && done != range.spp) continue;
+    if (done % kBlockSpp != 0 && done != info.range.spp) continue;
     if (isFirstBlock) checks = block.checks;
     writer.add(block);
     info.timeS += block.timeS;
@@ -139,8 +153,8 @@ bool renderChunk(const PreparedScene& prepared, const ReferenceConfig& config,
   info.metadata.merge(provenanceWords());
   info.metadata["kind"] = "chunk";
   writer.commit(info, checks);
-  logInfo(fmt::format("{}: samples {} to {} in {:.1f} s", file.string(), range.firstSpp,
-                      range.end() - 1, info.timeS));
+  logInfo(fmt::format("{}: samples {} to {} in {:.1f} s", file.string(), info.range.firstSpp,
+                      info.range.end() - 1, info.timeS));
   return true;
 }
 

@@ -62,14 +62,23 @@ constexpr uint64_t chunkFileBytesPerPixel(uint64_t spp) {
   return (spp + kBlockSpp - 1) / kBlockSpp * kBlockBytesPerPixel;
 }
 
+// Returns why the file does not hold these samples, undamaged; "" if it does. `target`: as for
+// renderChunk().
+std::string whyNotChunk(const PreparedScene& prepared, const ReferenceConfig& config,
+                        const ChunkRange& range, const std::filesystem::path& file,
+                        const ReferenceTarget& target = {});
+
 // Renders a chunk to `file`, which appears complete or not at all. A sample is the same wherever
-// it is rendered. If the file holds these samples already (same key, seed, backend and range, and
-// undamaged), nothing is rendered and the result is false; any other file is replaced, and a line
-// says why. Progress goes to stderr. Throws Error: `interrupted` on a signal, `badUsage` if a
-// method has a history and the range does not begin at 0, `badInput` if the file cannot be written,
-// and what sessions throw. After a throw nothing stays; the next call begins anew.
+// it is rendered. A chunk that begins at 0 ends before the range does where its first block meets
+// the target: one rendering would stop there. If the file holds these samples already (same key,
+// seed, backend and range, and undamaged), nothing is rendered and the result is false; any other
+// file is replaced, and a line says why. Progress goes to stderr. Throws Error: `interrupted` on a
+// signal, `badUsage` if a method has a history and the range does not begin at 0, `badInput` if the
+// file cannot be written, and what sessions throw. After a throw nothing stays; the next call
+// begins anew.
 bool renderChunk(const PreparedScene& prepared, const ReferenceConfig& config,
-                 const ChunkRange& range, const std::filesystem::path& file);
+                 const ChunkRange& range, const std::filesystem::path& file,
+                 const ReferenceTarget& target = {});
 
 // Adds chunks to `state`, in the order of their samples, whatever the order of `files`: the result
 // is bit for bit the state of one rendering (but for times, and devices where they differ).

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "experiments/runner/base/interrupt.h"
+#include "experiments/runner/reference/reference_halves.h"
 #include "experiments/runner/suite/picture.h"
 
 namespace restlab {
@@ -42,10 +43,10 @@ MeasuredCost measureRun(const Suite& suite, const PreparedScene& prepared,
 
 double secondsOfSample(const Suite& suite, const PreparedScene& prepared,
                        const BlockResult& block) {
-  SessionConfig path = pictureOf(suite, block.width, block.height, block.component);
-  path.camera = prepared.camera;
+  const SessionConfig picture = pictureOf(suite, block.width, block.height, block.component);
   size_t ignored = 0;
-  return secondsOfFrame(prepared, path, ignored);
+  return secondsOfFrame(prepared, referenceSession(prepared, referenceOfSuite(suite, picture)),
+                        ignored);
 }
 
 }  // namespace restlab

@@ -105,7 +105,7 @@ LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& planned)
         addJob(suite, *job, block);
         continue;
       }
-      ++loaded.missing;
+      loaded.missing.push_back(key);
       logWarning(fmt::format("{}: is missing or damaged; left out", store.folderOf(key).string()));
     }
   }
@@ -113,7 +113,7 @@ LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& planned)
   return loaded;
 }
 
-std::string remakeOutputs(const fs::path& folder) {
+RemadeOutputs remakeOutputs(const fs::path& folder) {
   const ResultsFolder results = openResults(folder);
   const FolderLock lock(folder);
   Outputs outputs(folder);
@@ -124,19 +124,19 @@ std::string remakeOutputs(const fs::path& folder) {
   }
   outputs.use(devices);
   for (const Json& line : results.record.at("skipped")) outputs.note(line.get<std::string>());
-  std::string tables;
-  bool finished = results.record.at("status").get<std::string>() == "finished";
+  RemadeOutputs made;
+  const bool finished = results.record.at("status").get<std::string>() == "finished";
   for (const PlannedBlock& planned : results.plan) {
     if (planned.jobs.empty() && planned.images.empty()) continue;
     for (const std::string& line : planned.warnings) outputs.note("Warning: " + line);
     LoadedBlock block = loadBlock(results, planned);
-    finished = finished && block.missing == 0;
+    made.missing.insert(made.missing.end(), block.missing.begin(), block.missing.end());
     if (!block.result.methods.empty())
-      tables += outputs.add(suiteOf(results, planned), std::move(block.result));
+      made.tables += outputs.add(suiteOf(results, planned), std::move(block.result));
   }
-  outputs.write(results.points.front(), results.record, finished);
+  outputs.write(results.points.front(), results.record, finished && made.missing.empty());
   outputs.writePages(results.points.front(), results.record);
-  return tables;
+  return made;
 }
 
 }  // namespace restlab

@@ -37,15 +37,18 @@ ResultsFolder openResults(const std::filesystem::path& folder);
 // Returns the suite of a block's point and scene. Throws Error (badInput) if suite.toml lacks it.
 const Suite& suiteOf(const ResultsFolder& results, const PlannedBlock& block);
 
-// Loads the block with all jobs of the plan. Logs and counts missing or damaged jobs.
+// Loads the block with all jobs of the plan. Logs missing or damaged jobs.
 struct LoadedBlock {
   BlockResult result;
-  size_t missing = 0;
+  std::vector<std::string> missing;  // keys
 };
 LoadedBlock loadBlock(const ResultsFolder& results, const PlannedBlock& block);
 
-// Writes all outputs of `run` again, except jobs, references and results.jsonl. Returns the tables.
-// Throws Error.
-std::string remakeOutputs(const std::filesystem::path& folder);
+struct RemadeOutputs {
+  std::string tables;                // markdown
+  std::vector<std::string> missing;  // keys of jobs that are absent or damaged
+};
+// Writes all outputs of `run` again, except jobs, references and results.jsonl. Throws Error.
+RemadeOutputs remakeOutputs(const std::filesystem::path& folder);
 
 }  // namespace restlab

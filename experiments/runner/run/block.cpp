@@ -50,13 +50,17 @@ std::vector<NeededReference> renderedReferences(const Suite& suite, const SuiteS
   return needed;
 }
 
+fs::path referenceFileNamed(const SuiteScene& scene) {
+  const fs::path found = findAsset(scene.reference);
+  return found.empty() ? fs::path(scene.reference) : found;
+}
+
 void takeReferences(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
                     const std::function<Reference(const NeededReference&)>& obtain,
                     BlockResult& block) {
   if (!scene.reference.empty()) {
     // checkSuites() has checked its configuration.
-    const fs::path found = findAsset(scene.reference);
-    const fs::path file = found.empty() ? fs::path(scene.reference) : found;
+    const fs::path file = referenceFileNamed(scene);
     block.reference = readReference(file);
     block.referenceFile = fs::absolute(file).string();
     return;

@@ -26,6 +26,10 @@ std::vector<NeededReference> renderedReferences(const Suite& suite, const SuiteS
                                                 const PreparedScene& prepared,
                                                 const BlockResult& block);
 
+// Returns the file of the reference that the suite names for the scene: beside its assets, or as it
+// is named.
+std::filesystem::path referenceFileNamed(const SuiteScene& scene);
+
 // Sets the block's references and their file, relative to the folder of results. `obtain`: called
 // for each of renderedReferences().
 void takeReferences(const Suite& suite, const SuiteScene& scene, const PreparedScene& prepared,
