@@ -111,7 +111,7 @@ TEST_F(SlurmTest, NightlyAKilledWorkerIsAskedForAgainWithTwiceAsMuch) {
     const size_t at = text.find("--mem=");
     return at == std::string::npos ? 0.0 : std::stod(text.substr(at + 6));
   };
-  EXPECT_NEAR(asked("shared/slurm/004.sh") / asked("shared/slurm/002.sh"), 2.0, 0.01);
+  EXPECT_NEAR(asked("shared/slurm/005.sh") / asked("shared/slurm/003.sh"), 2.0, 0.01);
   std::string log;
   for (const fs::path& file : entries("shared/slurm"))
     if (file.extension() == ".log") log += read("shared/slurm/" + file.filename().string());

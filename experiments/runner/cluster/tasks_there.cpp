@@ -63,25 +63,27 @@ TasksThere tasksThere(const fs::path& folder, const Plan& plan) {
 }
 
 void removeLeftovers(const fs::path& folder, const Plan& plan, const TasksThere& there) {
-  std::set<fs::path> leftovers;
+  std::set<std::string> leftovers;
   for (const char* name : {"done", "chunks", "references", "at-work"})
     for (const std::string& file : namesIn(folder / name))
-      if (file.find(kTemporary) != std::string::npos) leftovers.insert(folder / name / file);
+      if (file.find(kTemporary) != std::string::npos)
+        leftovers.insert((folder / name / file).string());
   if (leftovers.empty()) return;
+  const auto remove = [&](const fs::path& of) {
+    const std::string beginning = of.string() + kTemporary;
+    for (auto one = leftovers.lower_bound(beginning);
+         one != leftovers.end() && one->rfind(beginning, 0) == 0; ++one) {
+      std::error_code ignored;
+      fs::remove(*one, ignored);
+    }
+  };
   const std::set<std::string> atWork = namesIn(folder / "at-work");
   for (const TaskGroup& group : plan.groups()) {
     for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
       const fs::path mark = markFile(folder, index);
       if (!there.isDone[index] || atWork.count(mark.filename().string()) != 0) continue;
-      const Task task = Plan::taskOf(group, index);
-      for (const fs::path& file : {resultFile(folder, plan, task), mark}) {
-        const std::string beginning = file.string() + kTemporary;
-        for (auto one = leftovers.lower_bound(beginning);
-             one != leftovers.end() && one->string().rfind(beginning, 0) == 0; ++one) {
-          std::error_code ignored;
-          fs::remove(*one, ignored);
-        }
-      }
+      remove(mark);
+      remove(resultFile(folder, plan, Plan::taskOf(group, index)));
     }
   }
 }

@@ -113,13 +113,14 @@ void requireReferences(const fs::path& folder, const Plan& plan, const Task& tas
     const PlannedReference& planned = plan.references[index];
     const fs::path file = referenceFileOf(folder, planned.label);
     std::error_code status;
+    lookAnew(file.parent_path());
     bool isSeen = fs::exists(file, status), isSaid = false;
     while (!isSeen && std::chrono::duration<double>(Clock::now() - start).count() < waitS) {
       if (!std::exchange(isSaid, true))
         logInfo(fmt::format("{}: is not to be seen here yet; waits {:g} s", file.string(), waitS));
       throwIfInterrupted("the task has not begun");
       std::this_thread::sleep_for(std::chrono::seconds(1));
-      lookAnew(folder / "references");
+      lookAnew(file.parent_path());
       isSeen = fs::exists(file, status);
     }
     const std::vector<uint64_t> missing = missingChunks(folder, plan, index);
