@@ -117,12 +117,14 @@ void requireReferences(const fs::path& folder, const Plan& plan, const Task& tas
     bool isSeen = fs::exists(file, status), isSaid = false;
     while (!isSeen && std::chrono::duration<double>(Clock::now() - start).count() < waitS) {
       if (!std::exchange(isSaid, true))
-        logInfo(fmt::format("{}: is not to be seen here yet; waits {:g} s", file.string(), waitS));
+        logWarning(
+            fmt::format("{}: is not to be seen here yet; waits {:g} s", file.string(), waitS));
       throwIfInterrupted("the task has not begun");
       std::this_thread::sleep_for(std::chrono::seconds(1));
       lookAnew(file.parent_path());
       isSeen = fs::exists(file, status);
     }
+    if (isSeen && waitS > 0.0) continue;
     const std::vector<uint64_t> missing = missingChunks(folder, plan, index);
     if (missing.empty() || isThere(folder, plan, planned)) continue;
     failInput(fmt::format("{}: {}: {}", folder.string(), plan.describe(task),
