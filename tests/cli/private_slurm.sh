@@ -10,10 +10,23 @@ export PATH=$PATH:/usr/sbin:/sbin
 
 stop() {
   local name pid
+  # The controller and the node are killed at once, as an orderly end takes them five seconds. Their
+  # steps would then wait for them, so that no job may be left.
+  export SLURM_CONF=$folder/slurm.conf
+  if [[ -s $folder/slurmctld.pid ]]; then
+    timeout 5 scancel --user="$(id -un)" 2>/dev/null
+    for _ in $(seq 30); do
+      [[ -z $(timeout 5 squeue -h 2>&1) ]] && break
+      sleep 0.1
+    done
+  fi
   for name in slurmd slurmctld munged; do
     [[ -s $folder/$name.pid ]] || continue
     pid=$(<"$folder/$name.pid")
-    kill -9 "$pid" 2>/dev/null  # at once: its folder goes, and an orderly end takes five seconds
+    kill -9 "$pid" 2>/dev/null
+  done
+  for pid in $(pgrep slurmstepd); do
+    [[ $(readlink "/proc/$pid/cwd") == "$folder"* ]] && kill -9 "$pid" 2>/dev/null
   done
   true
 }
