@@ -15,6 +15,7 @@
 #include "core/backend/backend.h"
 #include "core/backend/cpu_raster.h"
 #include "core/backend/embree.h"
+#include "core/backend/stop_scope.h"
 #include "core/backend/units/kernel_units.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -302,7 +303,9 @@ class CpuBackend final : public Backend {
   template <typename F>
   void forEachTile(size_t count, const F& run) {
     std::atomic<bool> isLeftOut = false;
+    const StopFlag flag = stopFlag();
     forEach(count, [&](size_t i) {
+      const StopScope stops(flag);
       if (isStopped()) {
         isLeftOut = true;
         return;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/backend/stop.h"
+#include "core/backend/stop_scope.h"
 #include "core/base/error.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
@@ -126,7 +127,8 @@ void RunFolder::make(Batch batch, uint64_t count) {
   std::mutex mutex;  // guards done, failure and progress
   uint64_t done = count - missing.size();
   std::exception_ptr failure;
-  const auto work = [&] {
+  const auto work = [&, flag = stopFlag()] {
+    const StopScope stops(flag);
     try {
       Session session(question_.prepared.scene, config);
       for (size_t i = next++; i < missing.size(); i = next++) {

@@ -98,7 +98,7 @@ void addBias(py::module_& module) {
                         warmup, frames, jobs};
         check(wish);
         Settings settings = settingsOf(scene, keywords);
-        const Certified result = withoutPython([&] { return certified(settings, wish); });
+        const Certified result = rendering([&] { return certified(settings, wish); });
         return objectOf(certificate::jsonOf(result));
       },
       py::arg("scene"), py::kw_only(), py::arg("runs") = py::none(), py::arg("margin") = 0.5,

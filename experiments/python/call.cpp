@@ -1,12 +1,17 @@
 #include "experiments/python/call.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <csignal>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
 #include <mutex>
+#include <thread>
 
 #include "core/backend/stop.h"
+#include "core/backend/stop_scope.h"
 
 namespace restlab::python {
 
@@ -14,48 +19,97 @@ namespace py = pybind11;
 
 namespace {
 
-std::mutex scopesMutex;
-size_t scopes = 0;
-struct sigaction handlerBefore = {};  // written only while no handler of ours is installed
+// How long a signal may wait for its handler.
+constexpr std::chrono::milliseconds kPatience{20};
+constexpr const char* kSpawn = "start it anew: multiprocessing.set_start_method('spawn')";
 
-// Python notes the signal first: whoever sees a stopped frame finds it noted.
-void passThenStop(int signal) {
-  handlerBefore.sa_handler(signal);
+// Calls under way. Whoever locks the mutex with the interpreter's lock lets go of it at once.
+std::mutex callsMutex;
+std::condition_variable callsEnd;
+size_t calls = 0;
+pid_t process = getpid();        // that of the calls
+bool isForkedFromCalls = false;  // its parent was in calls: locks that they held stay closed
+std::optional<std::thread::id> lastThread;  // set once the interpreter ends: only it may call
+
+// Notes a fork since the last call. With callsMutex, which no other thread held at the fork: it is
+// held with the interpreter's lock.
+void enterProcess() {
+  if (process == getpid()) return;
+  process = getpid();
+  isForkedFromCalls = isForkedFromCalls || calls > 0;
+  calls = 0;
+}
+
+void endCalls() {
+  const py::gil_scoped_release release;
+  std::unique_lock lock(callsMutex);
+  lastThread = std::this_thread::get_id();
+  enterProcess();
+  if (isForkedFromCalls) return;
   stopFrames();
-}
-
-void install() {
-  struct sigaction present = {};
-  sigaction(SIGINT, nullptr, &present);
-  const bool isFunction = (present.sa_flags & SA_SIGINFO) == 0 && present.sa_handler != SIG_IGN &&
-                          present.sa_handler != SIG_DFL;
-  if (!isFunction || present.sa_handler == passThenStop) return;
-  handlerBefore = present;
-  struct sigaction ours = present;
-  ours.sa_handler = passThenStop;
-  sigaction(SIGINT, &ours, nullptr);
-}
-
-void uninstall() {
-  struct sigaction present = {};
-  sigaction(SIGINT, nullptr, &present);
-  // Leave a handler that was set while frames ran.
-  const bool isOurs = (present.sa_flags & SA_SIGINFO) == 0 && present.sa_handler == passThenStop;
-  if (isOurs) sigaction(SIGINT, &handlerBefore, nullptr);
+  callsEnd.wait(lock, [] { return calls == 0; });
+  resumeFrames();
 }
 
 }  // namespace
 
-InterruptScope::InterruptScope() {
-  const std::lock_guard lock(scopesMutex);
-  if (scopes++ == 0) install();
+CallScope::CallScope() {
+  const std::lock_guard lock(callsMutex);
+  if (lastThread && *lastThread != std::this_thread::get_id())
+    throw Error(ExitCode::interrupted, "interrupted: the interpreter ends");
+  enterProcess();
+  if (isForkedFromCalls) {
+    failUsage(fmt::format(
+        "this process was forked while another thread was in a call of restlab; {}", kSpawn));
+  }
+  ++calls;
 }
 
-InterruptScope::~InterruptScope() {
-  const std::lock_guard lock(scopesMutex);
-  if (--scopes > 0) return;
-  uninstall();
-  resumeFrames();
+CallScope::~CallScope() {
+  const std::lock_guard lock(callsMutex);
+  if (--calls == 0) callsEnd.notify_all();
+}
+
+void waitForCallsAtExit() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(endCalls));
+}
+
+bool isMainThread() {
+  const py::module_ threading = py::module_::import("threading");
+  return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
+}
+
+void runInterruptibly(const std::function<void()>& work) {
+  std::mutex mutex;
+  std::condition_variable end;
+  bool isDone = false;
+  std::atomic<bool> isStopped = false;
+  std::exception_ptr error;
+  std::jthread thread([&] {
+    const StopScope stops(&isStopped);
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    isDone = true;
+    end.notify_one();
+  });
+  const auto isDoneSoon = [&] {
+    const py::gil_scoped_release release;
+    std::unique_lock lock(mutex);
+    return end.wait_for(lock, kPatience, [&] { return isDone; });
+  };
+  std::optional<py::error_already_set> raised;
+  while (!isDoneSoon()) {
+    if (raised || PyErr_CheckSignals() == 0) continue;
+    raised.emplace();
+    isStopped = true;
+  }
+  thread.join();
+  if (raised) throw py::error_already_set(*raised);
+  if (error) std::rethrow_exception(error);
 }
 
 void addError(py::module_& module) {
@@ -63,10 +117,12 @@ void addError(py::module_& module) {
       "restlab.Error",
       "What is wrong with a setting, a file or a device, in one line.\n\n"
       "exit_code is the one that the program would end with: 2 bad usage, 3 bad input,\n"
-      "4 device unavailable, 130 interrupted.",
+      "4 device unavailable, 130 interrupted. It is 3 for those that a script makes.",
       PyExc_RuntimeError, nullptr);
   if (type == nullptr) throw py::error_already_set();
-  module.add_object("Error", py::reinterpret_borrow<py::object>(type));
+  const auto added = py::reinterpret_borrow<py::object>(type);
+  added.attr("exit_code") = int(ExitCode::badInput);
+  module.add_object("Error", added);
   py::register_exception_translator([](std::exception_ptr caught) {
     try {
       if (caught) std::rethrow_exception(caught);
@@ -78,19 +134,13 @@ void addError(py::module_& module) {
   });
 }
 
-void requireOwnProcess() {
-  static std::atomic<pid_t> owner = 0;
-  pid_t none = 0;
-  const pid_t self = getpid();
-  if (owner.compare_exchange_strong(none, self) || none == self) return;
-  failUsage(
-      "this process was forked from one that has used restlab, whose threads it lacks; start it "
-      "anew: multiprocessing.set_start_method('spawn')");
-}
-
-void raiseInterrupt(const Error& error) {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  throw Error(error.code(), error.what());
+void useVulkan() {
+  static const pid_t user = getpid();
+  if (user != getpid()) {
+    failUsage(fmt::format(
+        "vulkan: this process was forked from one that has used it, whose threads it lacks; {}",
+        kSpawn));
+  }
 }
 
 }  // namespace restlab::python

@@ -1,6 +1,7 @@
 // Registries, as `restlab list` shows them.
 #include "core/scene/scene.h"
 #include "experiments/python/bindings.h"
+#include "experiments/python/call.h"
 #include "experiments/python/values.h"
 #include "experiments/runner/registries/registries.h"
 
@@ -43,7 +44,11 @@ void addLists(py::module_& module) {
         Registry{"denoisers", denoisersJson, "Denoisers: bias, parameters."},
         Registry{"backends", backendsJson, "Backends and their devices."}}) {
     module.def(
-        registry.name, [list = registry.list] { return py::list(objectOf(list())); },
+        registry.name,
+        [list = registry.list] {
+          if (list == backendsJson) useVulkan();  // asks for its devices
+          return py::list(objectOf(list()));
+        },
         registry.help);
   }
 }

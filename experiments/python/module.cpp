@@ -51,6 +51,7 @@ void addVerbosity(py::module_& module) {
 PYBIND11_MODULE(restlab, module) {
   module.doc() = kHelp;
   python::addError(module);
+  python::waitForCallsAtExit();
   checkDefaultKernelChoice();
   logCompiledKernels();
   takeArguments();

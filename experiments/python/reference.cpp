@@ -124,7 +124,7 @@ Shared render(const py::object& scene, const ReferenceWish& wish, const py::kwar
                           settings.config.parameters.begin()->first));
   }
   targetOf(wish);
-  const PreparedScene prepared = withoutPython([&] { return prepare(settings); });
+  const PreparedScene prepared = rendering([&] { return prepare(settings); });
   return std::const_pointer_cast<Reference>(
       obtain(prepared, referenceConfigOf(settings.config), wish));
 }
@@ -141,7 +141,7 @@ std::shared_ptr<const Reference> obtain(const PreparedScene& prepared, Reference
   }
   ReferenceStore store;
   if (!wish.isAnew) store.folder = referenceCacheFolder();
-  return withoutPython([&] {
+  return rendering([&] {
     auto reference =
         std::make_shared<const Reference>(renderReference(prepared, config, target, store));
     if (!wish.file.empty()) writeReference(wish.file, *reference);

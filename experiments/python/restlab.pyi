@@ -21,7 +21,7 @@ class Error(RuntimeError):
     """What is wrong with a setting, a file or a device, in one line."""
 
     exit_code: int
-    """The exit code of the program: 2 bad usage, 3 bad input, 4 device, 130 interrupted."""
+    """The exit code of the program: 2 bad usage, 3 bad input, 4 device, 130 interrupted; else 3."""
 
 class FrameStats:
     """Times and counts of a frame."""
@@ -123,7 +123,7 @@ class Session:
     def settings(self) -> dict[str, Value]: ...
     @property
     def metadata(self) -> dict[str, str]:
-        """Words that `restlab render` writes into its EXR, for write_exr()."""
+        """Words that `restlab render` writes into its EXR, of the last frame; for write_exr()."""
     @property
     def cameras(self) -> list[str]: ...
     @property

@@ -24,6 +24,8 @@ namespace py = pybind11;
 class ScriptSession::Use {
  public:
   explicit Use(ScriptSession& session) : session_(session) {
+    if (session_.process_ != getpid())
+      failUsage("Session: was opened before this process was forked; open another one here");
     if (session_.isUsed_.exchange(true)) {
       failUsage(
           "Session: is used by another thread at this moment; a session serves one thread at a "
@@ -40,25 +42,28 @@ class ScriptSession::Use {
 
 template <class Work>
 auto ScriptSession::run(const Work& work) {
-  return withoutPython([&] {
-    if (isBroken_) {
-      session_->resize(session_->config().width, session_->config().height);
-      beginHistory();
-      applyCamera();
-      isBroken_ = false;
-    }
-    try {
+  try {
+    return rendering([&] {
+      if (isBroken_) {
+        session_->resize(session_->config().width, session_->config().height);
+        beginHistory();
+        applyCamera();
+        isBroken_ = false;
+      }
       return work();
-    } catch (const Error& error) {
-      isBroken_ = isBroken_ || error.code() == ExitCode::interrupted;
-      throw;
-    }
-  });
+    });
+  } catch (const Error& error) {
+    isBroken_ = isBroken_ || error.code() == ExitCode::interrupted;
+    throw;
+  } catch (const py::error_already_set&) {  // also where the frame ended before it was stopped
+    isBroken_ = true;
+    throw;
+  }
 }
 
 ScriptSession::ScriptSession(const py::handle& scene, const py::kwargs& keywords) {
   Settings settings = settingsOf(scene, keywords);
-  withoutPython([&] {
+  rendering([&] {
     prepared_ = prepare(settings);
     session_ = std::make_unique<Session>(prepared_.scene, settings.config);
     logStartup(*session_);
@@ -66,8 +71,15 @@ ScriptSession::ScriptSession(const py::handle& scene, const py::kwargs& keywords
   camera_ = prepared_.scene->source().cameras.at(prepared_.camera);
 }
 
+ScriptSession::~ScriptSession() {
+  // Threads of a device are not in a forked process, and would be waited for.
+  if (process_ != getpid()) static_cast<void>(session_.release());
+}
+
 void ScriptSession::beginHistory() {
   frames_ = 0;
+  firstFrame_ = 0;
+  shown_.reset();
   timeMs_ = 0.0;
   health_ = {};
 }
@@ -78,6 +90,7 @@ void ScriptSession::count(const FrameStats& stats) {
   ++frames_;
   timeMs_ += stats.timeMs;
   health_.add(stats);
+  shown_ = {session_->config(), camera_};
 }
 
 FrameStats ScriptSession::frame() {
@@ -102,13 +115,13 @@ void ScriptSession::requireFrame(const char* what) const {
 py::array ScriptSession::radiance() {
   const Use use(*this);
   requireFrame("radiance");
-  return arrayOf(run([&] { return session_->sharedRadiance(); }));
+  return arrayOf(withoutPython([&] { return session_->sharedRadiance(); }));
 }
 
 py::array ScriptSession::aov(const std::string& name) {
   const Use use(*this);
   requireFrame("aov");
-  if (name == "radiance") return arrayOf(run([&] { return session_->sharedRadiance(); }));
+  if (name == "radiance") return arrayOf(withoutPython([&] { return session_->sharedRadiance(); }));
   return arrayOf(run([&] { return session_->aov(name); }));
 }
 
@@ -163,15 +176,16 @@ py::dict ScriptSession::settings() {
 
 std::map<std::string, std::string> ScriptSession::metadata() {
   const Use use(*this);
-  std::map<std::string, std::string> words = describe(prepared_, session_->config());
+  const Shown shown = shown_.value_or(Shown{session_->config(), camera_});
+  std::map<std::string, std::string> words = describe(prepared_, shown.config);
   const SceneCamera& own = prepared_.scene->source().cameras.at(prepared_.camera);
-  if (cameraWords(own) != cameraWords(camera_)) describeCamera(camera_, words);
+  if (cameraWords(own) != cameraWords(shown.camera)) describeCamera(shown.camera, words);
   words["device"] = session_->device();
   words["ray_tracing"] = session_->rayTracing();
   words.merge(provenanceWords());
   words["kind"] = "image";
-  words["seed"] = std::to_string(session_->config().seed);
-  if (frames_ > 0) words["frame"] = std::to_string(frames_ - 1);
+  words["seed"] = std::to_string(shown.config.seed);
+  if (frames_ > 0) words["frame"] = std::to_string(firstFrame_ + frames_ - 1);
   words["health"] = health_.text();
   return words;
 }
@@ -192,10 +206,7 @@ void ScriptSession::setCamera(const py::object& nameOrIndex, const py::kwargs& k
   const Scene& scene = prepared_.scene->source();
   SceneCamera camera = camera_;
   if (!nameOrIndex.is_none()) {
-    const std::string name = py::isinstance<py::int_>(nameOrIndex)
-                                 ? std::string(py::str(nameOrIndex))
-                                 : textOf(nameOrIndex, "set_camera");
-    camera = scene.cameras.at(findCamera(scene, name));
+    camera = scene.cameras.at(findCamera(scene, nameOrIndexOf(nameOrIndex, "set_camera")));
   }
   camera_ = cameraWith(camera, keywords);
   run([&] { applyCamera(); });
@@ -206,6 +217,7 @@ void ScriptSession::reset(const std::optional<uint32_t>& seed, uint32_t firstFra
   run([&] {
     session_->reset(seed.value_or(session_->config().seed), firstFrame);
     beginHistory();
+    firstFrame_ = firstFrame;
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <memory>
@@ -17,11 +18,14 @@
 
 namespace restlab::python {
 
-// Every member throws Error (badUsage) while another thread is in one.
+// Every member throws Error (badUsage) while another thread is in one, and in a forked process.
 class ScriptSession {
  public:
   // Throws Error as settingsOf(), prepareScene() and Session do.
   ScriptSession(const pybind11::handle& scene, const pybind11::kwargs& keywords);
+  ~ScriptSession();
+  ScriptSession(const ScriptSession&) = delete;
+  ScriptSession& operator=(const ScriptSession&) = delete;
 
   FrameStats frame();
   std::vector<FrameStats> frames(uint32_t count);
@@ -59,6 +63,11 @@ class ScriptSession {
 
  private:
   class Use;
+  // Settings and camera of the last frame.
+  struct Shown {
+    SessionConfig config;
+    SceneCamera camera;
+  };
   // Runs `work` on the session without the interpreter's lock. A frame that was stopped leaves no
   // whole history: the next call starts a new one.
   template <class Work>
@@ -68,12 +77,14 @@ class ScriptSession {
   void beginHistory();
   void applyCamera();
 
+  const pid_t process_ = getpid();
   PreparedScene prepared_;
   SceneCamera camera_;
   std::unique_ptr<Session> session_;
   std::atomic<bool> isUsed_ = false;
   bool isBroken_ = false;  // a frame was stopped
-  uint64_t frames_ = 0;
+  uint64_t frames_ = 0, firstFrame_ = 0;
+  std::optional<Shown> shown_;  // none before the first frame of a history
   double timeMs_ = 0.0;
   HealthSum health_;
 };

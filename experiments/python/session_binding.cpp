@@ -110,7 +110,7 @@ void addSession(py::module_& module) {
       .def_property_readonly("settings", &S::settings, "All other settings.")
       .def_property_readonly(
           "metadata", [](S& session) { return dictOf(session.metadata()); },
-          "Words that `restlab render` writes into its EXR, for write_exr().")
+          "Words that `restlab render` writes into its EXR, of the last frame; for write_exr().")
       .def_property_readonly(
           "cameras", [](S& session) { return listOf(session.cameras()); },
           "Names of the scene's cameras.")

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/frame/method.h"
 #include "core/frame/method_settings.h"
+#include "experiments/python/call.h"
 #include "experiments/python/values.h"
 #include "experiments/runner/base/log.h"
 #include "experiments/runner/suite/backend_choice.h"
@@ -127,6 +128,7 @@ void checkDevice(const SessionConfig& config) {
   };
   requireAmong("backend", config.backend, backendNames());
   if (!config.rayTracing.empty()) requireAmong("ray_tracing", config.rayTracing, rayTracingNames());
+  if (config.backend == "vulkan") useVulkan();
   if (config.backend != "cpu") return;
   if (!config.device.empty())
     failUsage(fmt::format("device '{}': only backend='vulkan' has devices to choose from",
@@ -156,8 +158,7 @@ Settings settingsOf(const py::handle& scene, const py::kwargs& given) {
     if (name == "environment") {
       settings.request.environment = textOf(value, name);
     } else if (name == "camera") {
-      settings.request.camera =
-          py::isinstance<py::int_>(value) ? std::string(py::str(value)) : textOf(value, name);
+      settings.request.camera = nameOrIndexOf(value, name);
     } else {
       const auto found = std::find_if(known.begin(), known.end(),
                                       [&](const Keyword& word) { return word.info.name == name; });

@@ -16,11 +16,25 @@ std::string typeOf(const py::handle& object) {
   return py::str(py::type::handle_of(object).attr("__name__"));
 }
 
-// Returns Python's own value of a scalar of numpy, which is no number of Python.
+// Returns Python's own value of what is a number: scalars of numpy, and whatever else has
+// __index__ or __float__. Anything else is returned as it is.
 py::object plain(const py::handle& object) {
+  if (py::isinstance<py::bool_>(object) || py::isinstance<py::str>(object))
+    return py::reinterpret_borrow<py::object>(object);
   const bool isScalar = py::hasattr(object, "item") && py::hasattr(object, "dtype") &&
                         py::hasattr(object, "shape") && py::len(object.attr("shape")) == 0;
-  return isScalar ? py::object(object.attr("item")()) : py::reinterpret_borrow<py::object>(object);
+  if (isScalar) return object.attr("item")();
+  PyObject* number = nullptr;
+  if (PyIndex_Check(object.ptr())) {
+    number = PyNumber_Index(object.ptr());
+  } else if (py::hasattr(object, "__float__")) {
+    number = PyNumber_Float(object.ptr());
+  } else {
+    return py::reinterpret_borrow<py::object>(object);
+  }
+  if (number != nullptr) return py::reinterpret_steal<py::object>(number);
+  PyErr_Clear();  // an array of several numbers
+  return py::reinterpret_borrow<py::object>(object);
 }
 
 }  // namespace
@@ -90,6 +104,12 @@ ParameterValue valueOf(const py::handle& object, const std::string& name) {
   }
   failUsage(fmt::format("{}: is of type {}; must be a number, True or False, or a text", name,
                         typeOf(object)));
+}
+
+std::string nameOrIndexOf(const py::handle& object, const std::string& name) {
+  const py::object value = plain(object);
+  const bool isIndex = py::isinstance<py::int_>(value) && !py::isinstance<py::bool_>(value);
+  return isIndex ? std::string(py::str(value)) : textOf(object, name);
 }
 
 std::string textOf(const py::handle& object, const std::string& name) {

@@ -16,9 +16,13 @@ namespace restlab::python {
 pybind11::object objectOf(const nlohmann::ordered_json& json);
 pybind11::object objectOf(const ParameterValue& value);
 
-// Returns a flag, number or text, also of numpy's scalars. `name` begins the error: Error
-// (badUsage) for any other type, and for whole numbers of more than 64 bits.
+// Returns a flag, number or text, also of numpy's scalars and of whatever has __index__ or
+// __float__. `name` begins the error: Error (badUsage) for any other type, and for whole numbers of
+// more than 64 bits.
 ParameterValue valueOf(const pybind11::handle& object, const std::string& name);
+
+// Returns a name, or an index as its digits. Throws Error (badUsage) naming `name`.
+std::string nameOrIndexOf(const pybind11::handle& object, const std::string& name);
 
 // Returns the text, or the path of an os.PathLike. Throws Error (badUsage) naming `name`.
 std::string textOf(const pybind11::handle& object, const std::string& name);

@@ -1,5 +1,7 @@
 """Bad input: one clear line each, of restlab.Error."""
 
+import pickle
+
 import numpy as np
 import pytest
 import restlab
@@ -29,6 +31,8 @@ def error(call, *arguments, **keywords):
         (dict(threads=[1]), 2, ["threads", "list"]),
         (dict(max_bounces=-1), 2, ["max_bounces"]),
         (dict(camera="left"), 2, ["camera 'left'"]),
+        (dict(camera=True), 2, ["camera", "bool"]),
+        (dict(width=np.array([8, 8])), 2, ["width", "ndarray"]),
         (dict(environment="none.exr"), 3, ["none.exr", "not found"]),
         (dict(backend="gpu"), 2, ["backend 'gpu'", "cpu, vulkan"]),
         (dict(device="x"), 2, ["device 'x'"]),
@@ -40,6 +44,13 @@ def test_settings(keywords, code, words):
     assert its == code
     for word in words:
         assert word in line
+
+
+def test_errors_of_a_script_have_a_code():
+    assert restlab.Error("x").exit_code == 3
+    with pytest.raises(restlab.Error) as caught:
+        restlab.metric("none", GREY, GREY)
+    assert pickle.loads(pickle.dumps(caught.value)).exit_code == 2
 
 
 def test_scenes():

@@ -1,5 +1,6 @@
 """Sessions: the same bits as the program, and arrays that stay."""
 
+import fractions
 import gc
 
 import numpy as np
@@ -133,6 +134,45 @@ def test_files_are_those_of_the_program(program, tmp_path):
     its, own = restlab.read_metadata(tmp_path / "its.exr"), restlab.read_metadata(file)
     for word in ("scene", "scene_hash", "camera", "camera_to_world", "seed", "integrator", "width"):
         assert its[word] == own[word]
+
+
+def test_metadata_are_of_the_image_that_is_shown():
+    session = restlab.Session("cornell-box", integrator="restir_gi", **SMALL)
+    session.frame()
+    shown = session.metadata
+    assert not session.set_parameters(confidence_cap=3)
+    session.set_camera(position=(0.0, 1.0, 3.0))
+    assert session.metadata == shown
+    session.frame()
+    later = session.metadata
+    assert later["parameter.confidence_cap"] == "3" != shown["parameter.confidence_cap"]
+    assert later["camera_to_world"] != shown["camera_to_world"]
+    assert (shown["frame"], later["frame"]) == ("0", "1")
+    traced = restlab.Session("cornell-box", **SMALL)
+    traced.reset(first_frame=5)
+    traced.frames(2)
+    assert traced.metadata["frame"] == "6"
+
+
+def test_numbers_of_any_kind_are_numbers(tmp_path):
+    size = dict(width=np.int64(8), height=np.array(8), threads=np.uint8(1))
+    camera = dict(camera=np.int64(0), max_bounces=np.int16(3))
+    session = restlab.Session(
+        "cornell-box", integrator="restir_gi", spatial_radius=fractions.Fraction(7, 2), **camera, **size
+    )
+    assert session.parameters["spatial_radius"] == 3.5
+    assert session.settings["max_bounces"] == 3
+    session.set_camera(np.uint8(0), position=np.array([0, 1, 3]), yfov=np.float32(50.0))
+    session.reset(np.uint32(7))
+    assert session.settings["seed"] == 7
+    assert len(session.frames(np.int8(2))) == 2
+    assert session.probe(np.int64(3), np.int32(2))["x"] == 3
+    session.resize(np.int64(4), np.uint16(5))
+    reference = session.reference(spp=np.int64(4), target_relmse=np.float32(1.0), anew=np.bool_(True))
+    assert reference.mean.shape == (5, 4, 3)
+    one = reference.mean
+    assert restlab.metric("flip_hdr", one, one, pixels_per_degree=np.float32(60.0)) == 0.0
+    restlab.write_png(tmp_path / "x.png", one, exposure=np.int64(1))
 
 
 def test_memory_stays_over_10000_frames():

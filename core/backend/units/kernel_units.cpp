@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/backend/kernel_cache.h"
+#include "core/backend/stop_scope.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 
@@ -198,9 +199,11 @@ void KernelUnits::compile(std::vector<Job>& jobs) {
   size_t done = 0;
   {
     std::vector<std::jthread> workers;
+    const StopFlag flag = stopFlag();
     const size_t count = std::min(compilersAtOnce(), missing.size());
     for (size_t i = 0; i < count; ++i) {
       workers.emplace_back([&] {
+        const StopScope stops(flag);
         for (size_t job = next++; job < missing.size(); job = next++) {
           if (framesStopped()) return;
           try {
