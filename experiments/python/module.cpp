@@ -1,5 +1,6 @@
 // The module `restlab` of Python.
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -50,6 +51,9 @@ void addVerbosity(py::module_& module) {
 
 PYBIND11_MODULE(restlab, module) {
   module.doc() = kHelp;
+  // Loads numpy now. pybind11 does so once, in a static variable: of two threads, one would wait
+  // for the other with the interpreter's lock.
+  py::dtype::of<float>();
   python::addError(module);
   python::waitForCallsAtExit();
   checkDefaultKernelChoice();
