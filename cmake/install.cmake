@@ -13,9 +13,15 @@ endforeach()
 
 install(TARGETS restlab RUNTIME)
 install(DIRECTORY experiments/suites experiments/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/restlab)
-install(FILES README.md CHANGELOG.md LICENSE CITATION.cff TYPE DOC)
-install(DIRECTORY docs/ TYPE DOC FILES_MATCHING PATTERN "*.md" PATTERN "*.py" PATTERN figures EXCLUDE)
-install(DIRECTORY experiments/example TYPE DOC)
+# Documents, and what they link to, as they lie here: a test follows every link.
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff TYPE DOC)
+install(DIRECTORY docs TYPE DOC)
+install(DIRECTORY experiments/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/experiments)
+foreach(file IN ITEMS core/caches/README.md core/radiance_cache/README.md core/dialect/lanes.h tests/README.md
+                      experiments/python/restlab.pyi)
+  cmake_path(GET file PARENT_PATH folder)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 # Pages of the manual and the completion of bash: the program itself writes them.
 install(CODE "set(data \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
   set(restlab \"$<TARGET_FILE:restlab>\")" )

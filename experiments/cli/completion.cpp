@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/backend/backend.h"
 #include "core/backend/kernel_choice.h"
 #include "core/scene/scene.h"
 #include "experiments/cli/option_text.h"
 #include "experiments/runner/registries/registries.h"
+#include "experiments/runner/suite/reference_target.h"
 
 namespace restlab {
 
@@ -26,14 +28,20 @@ CompletionWords namesIn(const Json& all) {
   return names;
 }
 
-// "confidence_cap=", ... of all parts.
-CompletionWords parameterWords() {
-  std::set<std::string> names;
-  for (const Json& parts : {integratorsJson(), cachesJson(), denoisersJson()})
-    for (const Json& part : parts)
-      for (const Json& parameter : part.value("parameters", Json::array()))
-        names.insert(parameter.at("name").get<std::string>() + "=");
-  return {names.begin(), names.end()};
+// Values of all parameters of all parts by "NAME="; none for numbers and free text.
+std::map<std::string, std::set<std::string>> parameterValues() {
+  std::map<std::string, std::set<std::string>> all;
+  for (const Json& parts : {integratorsJson(), cachesJson(), denoisersJson()}) {
+    for (const Json& part : parts) {
+      for (const Json& parameter : part.value("parameters", Json::array())) {
+        std::set<std::string>& values = all[parameter.at("name").get<std::string>() + "="];
+        if (parameter.at("default").is_boolean()) values.insert({"true", "false"});
+        for (const Json& choice : parameter.value("choices", Json::array()))
+          values.insert(choice.get<std::string>());
+      }
+    }
+  }
+  return all;
 }
 
 CompletionWords splitAt(const std::string& text, char at) {
@@ -71,9 +79,17 @@ _restlab() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} verb=${{COMP_WORDS[1]-}}
   local options='' words='' place='' takes=' ' program
   COMPREPLY=()
-  # A word ends at '=': --option=value is three of them.
-  [[ $word != '=' ]] || word=
-  [[ $before != '=' ]] || before=${{COMP_WORDS[COMP_CWORD - 2]}}
+  # A word ends at '=': --option=value is three of them, and "--set name=" what stands before name's.
+  local first=$((COMP_CWORD - 1))
+  if [[ $word == '=' ]]; then
+    word=
+  elif [[ $before == '=' ]]; then
+    first=$((COMP_CWORD - 2))
+    before=${{COMP_WORDS[first]}}
+  else
+    first=0
+  fi
+  ((first < 2)) || [[ $before == -* ]] || before="${{COMP_WORDS[first - 1]}} $before="
   if ((COMP_CWORD == 1)); then
     COMPREPLY=($(compgen -W '{verbs} help --help --version' -- "$word"))
     return
@@ -93,7 +109,7 @@ _restlab() {{
     return
   fi
   # The value of an option that has no names: a file, or free text.
-  [[ $takes != *" $before "* ]] || return
+  [[ $before != *= && $takes != *" $before "* ]] || return
   case $place in
     scene) words='{scenes}' ;;
     suite)
@@ -122,12 +138,15 @@ complete -o default -F _restlab restlab
 
 std::string bashCompletion(const CLI::App& app, const std::vector<std::string>& kinds) {
   const CompletionWords integrators = namesIn(integratorsJson());
+  const std::map<std::string, std::set<std::string>> parameters = parameterValues();
+  CompletionWords parameterNames;
+  for (const auto& [name, its] : parameters) parameterNames.push_back(name);
   const std::map<std::string, CompletionWords> registries = {
-      {"integrator", integrators},          {"against", integrators},
-      {"cache", namesIn(cachesJson())},     {"denoiser", namesIn(denoisersJson())},
-      {"backend", namesIn(backendsJson())}, {"metric", namesIn(metricsJson())},
-      {"kernels", kernelChoiceNames()},     {"component", {"all", "direct", "indirect"}},
-      {"scene", builtinSceneNames()},       {"set", parameterWords()}};
+      {"integrator", integrators},      {"against", referenceIntegrators()},
+      {"cache", namesIn(cachesJson())}, {"denoiser", namesIn(denoisersJson())},
+      {"backend", backendNames()},      {"metric", namesIn(metricsJson())},
+      {"kernels", kernelChoiceNames()}, {"component", {"all", "direct", "indirect"}},
+      {"scene", builtinSceneNames()},   {"set", parameterNames}};
   // CompletionWords of what is given by its place, but for scenes and suites, which may be files.
   const std::map<std::string, CompletionWords> places = {{"scene", {"scene"}},
                                                          {"suite", {"suite"}},
@@ -155,7 +174,16 @@ std::string bashCompletion(const CLI::App& app, const std::vector<std::string>& 
       // Settings of a suite and parameters of a closure are no parameters of methods.
       const bool isOther = option->check_lname("set") &&
                            (name == "bsdf" || verb->get_option_no_throw("suite") != nullptr);
-      const CompletionWords its = isOther ? CompletionWords{} : completionsOf(*option, registries);
+      const bool isOfReference = option->check_lname("integrator") && name == "reference";
+      const CompletionWords its = isOther         ? CompletionWords{}
+                                  : isOfReference ? referenceIntegrators()
+                                                  : completionsOf(*option, registries);
+      if (its == parameterNames) {
+        for (const auto& [parameter, choices] : parameters)
+          if (!choices.empty())
+            byValues[{choices.begin(), choices.end()}].push_back(
+                fmt::format("'{} --set {}'", name, parameter));
+      }
       for (const std::string& one : names)
         if (!its.empty()) byValues[its].push_back(fmt::format("'{} {}'", name, one));
     }

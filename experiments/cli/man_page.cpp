@@ -89,7 +89,7 @@ std::string mainPage(const CLI::App& app) {
          ".SH SYNOPSIS\n.B restlab\n\\fIverb\\fR [\\fIoptions\\fR]\n.SH VERBS\n" + verbs +
          ".SH EXIT STATUS\n" + footerText(app.get_footer()) +
          ".SH FILES\n.TP\n.I share/restlab\nSuites and their scenes, which verbs find by name.\n" +
-         ".TP\n.I share/doc/restlab\nThe documents: begin with how\\-to.md.\n";
+         ".TP\n.I share/doc/restlab\nThe documents: begin with README.md.\n";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The installed program, library and CMake package, used from a tree that was moved.
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "core/image/image.h"
@@ -61,8 +62,16 @@ complete restlab run quickst
 complete restlab render corn
 complete restlab render x --integrator = restir_d
 complete restlab bias x --se
+complete restlab reference x --integrator ''
+complete restlab render x --backend = v
+complete restlab render x --set mis =
+complete restlab render x --set temporal = t
+complete restlab render x --set confidence_cap = corn
+complete restlab run x --set mis =
 )");
-  EXPECT_EQ(shell("bash complete.sh").output, "quickstart\ncornell-box\nrestir_di\n--seed --set\n");
+  EXPECT_EQ(shell("bash complete.sh").output,
+            "quickstart\ncornell-box\nrestir_di\n--seed --set\npath bdpt\nvulkan\n"
+            "confidence defensive pairwise\ntrue\n\n\n");
 
   // Names that the library shows are restlab's own.
   result = shell("nm -D --defined-only $(find moved/here -name librestlab.so) | awk '{print $3}'");
@@ -94,6 +103,21 @@ complete restlab bias x --se
   result = shell("example/example cornel-box 3 example.exr");
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.output.find("did you mean 'cornell-box'?"), std::string::npos) << result.output;
+}
+
+TEST_F(Installed, DocumentsHaveWhatTheyLinkTo) {
+  const std::regex link("\\]\\(([^)#: ]+)[^): ]*\\)");
+  size_t count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(tree() / "share/doc")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = read(entry.path().lexically_relative(folder_).string());
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
+      const fs::path target = entry.path().parent_path() / (*found)[1].str();
+      EXPECT_TRUE(fs::exists(target)) << entry.path().filename() << ": " << (*found)[0];
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 300u);
 }
 
 TEST_F(Installed, NightlyEveryHeaderCompilesAlone) {
