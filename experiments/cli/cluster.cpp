@@ -112,8 +112,8 @@ void sayWhatIsMissing(const Collected& collected, const fs::path& out) {
     logInfo(fmt::format("{}: written, of all {}", out.string(), counted(collected.tasks, "task")));
     return;
   }
-  logWarning(fmt::format("{}: of {} {} are missing: {}; tables are of the others", out.string(),
-                         counted(collected.tasks, "task"), collected.missing.size(),
+  logWarning(fmt::format("{}: runs of {} of {} are missing: {}; tables are of the others",
+                         out.string(), collected.missing.size(), counted(collected.tasks, "task"),
                          rangesText(collected.missing)));
 }
 

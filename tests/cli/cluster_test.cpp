@@ -78,7 +78,7 @@ TEST_F(ClusterTest, TasksInAnyOrderGiveTheTablesOfRun) {
 
   const ProgramResult part = run("collect shared");
   EXPECT_EQ(part.code, 0) << part.err;
-  EXPECT_NE(part.err.find("of 4 tasks 1 are missing: 2;"), std::string::npos) << part.err;
+  EXPECT_NE(part.err.find("runs of 1 of 4 tasks are missing: 2;"), std::string::npos) << part.err;
   EXPECT_NE(read("shared/table.md").find("Not finished"), std::string::npos);
   EXPECT_EQ(keys("shared").size(), 1u);
 
