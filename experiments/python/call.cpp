@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -40,6 +41,11 @@ void enterProcess() {
   calls = 0;
 }
 
+[[noreturn]] void failForked() {
+  failUsage(
+      fmt::format("this process was forked while a thread was in a call of restlab; {}", kSpawn));
+}
+
 void endCalls() {
   const py::gil_scoped_release release;
   std::unique_lock lock(callsMutex);
@@ -58,58 +64,76 @@ CallScope::CallScope() {
   if (lastThread && *lastThread != std::this_thread::get_id())
     throw Error(ExitCode::interrupted, "interrupted: the interpreter ends");
   enterProcess();
-  if (isForkedFromCalls) {
-    failUsage(fmt::format(
-        "this process was forked while another thread was in a call of restlab; {}", kSpawn));
-  }
+  if (isForkedFromCalls) failForked();
   ++calls;
 }
 
 CallScope::~CallScope() {
   const std::lock_guard lock(callsMutex);
-  if (--calls == 0) callsEnd.notify_all();
+  if (process != getpid()) {  // a handler of signals has forked in the call
+    enterProcess();
+  } else if (--calls == 0) {
+    callsEnd.notify_all();
+  }
 }
 
 void waitForCallsAtExit() {
+  if (PyInterpreterState_Get() != PyInterpreterState_Main())
+    return;  // the process goes on after it
   py::module_::import("atexit").attr("register")(py::cpp_function(endCalls));
 }
 
-bool isMainThread() {
-  const py::module_ threading = py::module_::import("threading");
-  return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
-}
+bool isMainThread() { return gettid() == getpid(); }
 
-void runInterruptibly(const std::function<void()>& work) {
+namespace {
+
+// Work in a thread of its own. A process forked meanwhile has neither the thread nor an end of the
+// locks that it holds: it must leave all of this as it is.
+struct ThreadedWork {
   std::mutex mutex;
   std::condition_variable end;
   bool isDone = false;
   std::atomic<bool> isStopped = false;
   std::exception_ptr error;
-  std::jthread thread([&] {
-    const StopScope stops(&isStopped);
-    try {
-      work();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
-    isDone = true;
-    end.notify_one();
-  });
-  const auto isDoneSoon = [&] {
+  std::jthread thread;  // joined before the others go
+
+  bool isDoneSoon() {
     const py::gil_scoped_release release;
     std::unique_lock lock(mutex);
     return end.wait_for(lock, kPatience, [&] { return isDone; });
-  };
-  std::optional<py::error_already_set> raised;
-  while (!isDoneSoon()) {
-    if (raised || PyErr_CheckSignals() == 0) continue;
-    raised.emplace();
-    isStopped = true;
   }
-  thread.join();
+};
+
+}  // namespace
+
+void runInterruptibly(const std::function<void()>& work) {
+  const pid_t parent = getpid();
+  auto threaded = std::make_unique<ThreadedWork>();
+  threaded->thread = std::jthread([&work, &own = *threaded] {
+    const StopScope stops(&own.isStopped);
+    try {
+      work();
+    } catch (...) {
+      own.error = std::current_exception();
+    }
+    const std::lock_guard lock(own.mutex);
+    own.isDone = true;
+    own.end.notify_one();
+  });
+  std::optional<py::error_already_set> raised;
+  while (!threaded->isDoneSoon()) {
+    if (raised || PyErr_CheckSignals() != 0) {
+      if (!raised) raised.emplace();
+      threaded->isStopped = true;
+    }
+    if (getpid() == parent) continue;
+    static_cast<void>(threaded.release());  // a handler has forked, and this is the child
+    if (raised) throw py::error_already_set(*raised);
+    failForked();
+  }
+  threaded->thread.join();
   if (raised) throw py::error_already_set(*raised);
-  if (error) std::rethrow_exception(error);
+  if (threaded->error) std::rethrow_exception(threaded->error);
 }
 
 void addError(py::module_& module) {

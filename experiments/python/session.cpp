@@ -46,19 +46,23 @@ auto ScriptSession::run(const Work& work) {
     return rendering([&] {
       if (isBroken_) {
         session_->resize(session_->config().width, session_->config().height);
-        beginHistory();
         applyCamera();
         isBroken_ = false;
       }
       return work();
     });
   } catch (const Error& error) {
-    isBroken_ = isBroken_ || error.code() == ExitCode::interrupted;
+    if (error.code() == ExitCode::interrupted) breakHistory();
     throw;
   } catch (const py::error_already_set&) {  // also where the frame ended before it was stopped
-    isBroken_ = true;
+    breakHistory();
     throw;
   }
+}
+
+void ScriptSession::breakHistory() {
+  isBroken_ = true;
+  beginHistory();
 }
 
 ScriptSession::ScriptSession(const py::handle& scene, const py::kwargs& keywords) {
@@ -86,29 +90,32 @@ void ScriptSession::beginHistory() {
 
 void ScriptSession::applyCamera() { session_->setCamera(camera_); }
 
-void ScriptSession::count(const FrameStats& stats) {
-  ++frames_;
-  timeMs_ += stats.timeMs;
-  health_.add(stats);
+void ScriptSession::count(std::span<const FrameStats> all) {
+  if (all.empty()) return;
+  frames_ += all.size();
+  for (const FrameStats& stats : all) {
+    timeMs_ += stats.timeMs;
+    health_.add(stats);
+  }
   shown_ = {session_->config(), camera_};
 }
 
 FrameStats ScriptSession::frame() {
   const Use use(*this);
   const FrameStats stats = run([&] { return session_->frame(); });
-  count(stats);
+  count({&stats, 1});
   return stats;
 }
 
 std::vector<FrameStats> ScriptSession::frames(uint32_t number) {
   const Use use(*this);
   const std::vector<FrameStats> all = run([&] { return session_->frames(number); });
-  for (const FrameStats& stats : all) count(stats);
+  count(all);
   return all;
 }
 
 void ScriptSession::requireFrame(const char* what) const {
-  if (frames_ == 0 || isBroken_)
+  if (frames_ == 0)
     failUsage(fmt::format("{}: this history has no frame yet; call frame() first", what));
 }
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,8 +74,9 @@ class ScriptSession {
   template <class Work>
   auto run(const Work& work);
   void requireFrame(const char* what) const;
-  void count(const FrameStats& stats);
+  void count(std::span<const FrameStats> all);
   void beginHistory();
+  void breakHistory();
   void applyCamera();
 
   const pid_t process_ = getpid();

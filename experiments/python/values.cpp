@@ -23,7 +23,10 @@ py::object plain(const py::handle& object) {
     return py::reinterpret_borrow<py::object>(object);
   const bool isScalar = py::hasattr(object, "item") && py::hasattr(object, "dtype") &&
                         py::hasattr(object, "shape") && py::len(object.attr("shape")) == 0;
-  if (isScalar) return object.attr("item")();
+  if (isScalar) {
+    const py::object item = object.attr("item")();
+    if (!item.is(object) && !py::isinstance(item, py::type::handle_of(object))) return item;
+  }
   PyObject* number = nullptr;
   if (PyIndex_Check(object.ptr())) {
     number = PyNumber_Index(object.ptr());
@@ -33,6 +36,8 @@ py::object plain(const py::handle& object) {
     return py::reinterpret_borrow<py::object>(object);
   }
   if (number != nullptr) return py::reinterpret_steal<py::object>(number);
+  if (!PyErr_ExceptionMatches(PyExc_TypeError) && !PyErr_ExceptionMatches(PyExc_ValueError))
+    throw py::error_already_set();
   PyErr_Clear();  // an array of several numbers
   return py::reinterpret_borrow<py::object>(object);
 }
