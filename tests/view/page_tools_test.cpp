@@ -226,10 +226,10 @@ TEST_F(PageToolsTest, PicturesSayWhatTheyShow) {
   for (const auto& [key, value] : expected)
     EXPECT_EQ(words.count(key) ? words.at(key) : "nothing", value) << key;
   EXPECT_EQ(words.at(words.count("frame") ? "frame" : "A.frame"),
-            page("return String(page.last.panes[0].frame - 1);"));
-  EXPECT_EQ(words.at("address"), page("return location.hash;"));
+            page("return String(page.last.panes[0].frame - 1);").get<std::string>());
+  EXPECT_EQ(words.at("address"), page("return location.hash;").get<std::string>());
   EXPECT_EQ(words.at("address").find("http"), std::string::npos) << "no secret";
-  EXPECT_EQ(words.at("version"), page("return page.hello.version;"));
+  EXPECT_EQ(words.at("version"), page("return page.hello.version;").get<std::string>());
   // It is still a picture.
   EXPECT_GT(page("return (await createImageBitmap(new Blob([await saved], {type: 'image/png'})))"
                  ".width;"),
