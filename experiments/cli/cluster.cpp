@@ -164,10 +164,12 @@ void submit(const SubmitOptions& options, Outcome& outcome) {
   const Submitted submitted = submitPlan(request, readPlan(request.folder));
   const std::optional<Collected>& collected = submitted.collected;
   if (options.json) printJsonText(jsonOf(request, submitted).dump(2));
-  if (!collected) return;
-  if (!options.json) printText(collected->tables);
-  sayWhatIsMissing(*collected, request.folder);
-  if (!collected->missing.empty()) {
+  if (collected) {
+    if (!options.json) printText(collected->tables);
+    sayWhatIsMissing(*collected, request.folder);
+  }
+  if (submitted.refusal) throw Error(*submitted.refusal);
+  if (collected && !collected->missing.empty()) {
     throw Error(ExitCode::badInput,
                 fmt::format("{}: not all tasks could be done; `restlab status {}` says why",
                             request.folder.string(), request.folder.string()));

@@ -73,10 +73,34 @@ TEST_F(SchedulerTest, WhatWasTakenBeforeARefusalIsKnownAndGoesOn) {
   EXPECT_NE(run("status shared").out.find("job 104 is gone: TIMEOUT;"), std::string::npos);
 
   // By hand, with room for one job alone.
-  write("refused", "106\n107\n");
+  write("refused", "106\n107\n108\n");
   expectRefusal(run("submit shared --engine slurm"), {"006.sh", "too many jobs", "1 job, 105 first",
                                                       "when they have ended", "restlab submit"});
   EXPECT_NE(run("status shared").out.find("no job for it was taken"), std::string::npos);
+}
+
+TEST_F(SchedulerTest, TablesAreMadeThoughAllIsRefused) {
+  ASSERT_EQ(run(kSubmit).code, 0);
+  mark(0, "101_0", "");
+  write("refused", "105\n106\n107\n108\n109\n");
+  expectRefusal(run("submit shared --engine slurm --go-on"), {"005.sh: sbatch refuses it"});
+  EXPECT_EQ(Json::parse(read("shared/run.json"))["status"], "3 of 8 tasks are missing");
+  EXPECT_EQ(run("status shared").out.find("goes on"), std::string::npos);
+}
+
+TEST_F(SchedulerTest, NothingIsHandedOverBesideTheQueue) {
+  ASSERT_EQ(run(kSubmit).code, 0);
+  write("queue", "101_0 PENDING\n104 RUNNING\n");
+  const ProgramResult here = run("submit shared");
+  EXPECT_EQ(here.code, 2);
+  EXPECT_NE(here.err.find("2 jobs of this plan are in the queue already"), std::string::npos);
+  // The job that goes on, requeued: another one is to go on, once.
+  const Variable job("SLURM_JOB_ID", "104");
+  EXPECT_EQ(run("submit shared --engine slurm --go-on").out, "105 goes on when they have ended\n");
+  EXPECT_NE(read("shared/slurm/005.sh").find("afterany:101\n"), std::string::npos);
+  write("queue", "101_0 PENDING\n105 PENDING\n");
+  EXPECT_EQ(run("submit shared --engine slurm --go-on").out, "");
+  EXPECT_EQ(submissions().size(), 5u);
 }
 
 TEST_F(SchedulerTest, LostTasksAreAskedForTogetherAndTriedAgainByWhatTheyAskedFor) {

@@ -40,7 +40,9 @@ class Collector {
     if (isElsewhere_) requireOwnFolder();
     requirePlannedFiles();
     // A job whose image is damaged in `out_` is unpacked again, which needs a second time.
-    if (!makeTables()) makeTables();
+    if (!makeTables() && !makeTables())
+      failInput(
+          fmt::format("{}: images in it are damaged as soon as they are written", out_.string()));
     return std::move(collected_);
   }
 

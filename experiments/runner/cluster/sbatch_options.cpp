@@ -62,6 +62,7 @@ SbatchAsked askedIn(const std::string& options) {
       value = word.substr(name.size());  // -t30
     else
       words >> value;
+    std::erase_if(value, [](char c) { return c == '"' || c == '\''; });
     if (isTime) {
       asked.hasTime = true;
       asked.seconds = secondsOf(value);

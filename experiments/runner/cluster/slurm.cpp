@@ -66,7 +66,7 @@ uint64_t maxArraySize() {
 
 std::optional<std::vector<QueuedJob>> jobsOf(const fs::path& folder, const Plan& plan,
                                              const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"squeue", "-h",   "-r", "--me", "-n", jobName(folder, plan),
+  std::vector<std::string> words = {"squeue", "-h",   "-r", "-n", jobName(folder, plan),
                                     "-o",     "%i %T"};
   words.insert(words.end(), more.begin(), more.end());
   const CommandResult result = runCommand(words);
@@ -115,9 +115,8 @@ class Slurm : public Engine {
   }
 
   std::string goOn(const Asked& asked, const std::vector<std::string>& after) override {
-    return submit(headOf(folder_) +
+    return submit(headOf(folder_) + askingOf(options_, jobName(folder_, plan_), asked) +
                   fmt::format("#SBATCH --dependency=afterany:{}\n", fmt::join(after, ":")) +
-                  askingOf(options_, jobName(folder_, plan_), asked) +
                   fmt::format("# What has ended without a result is asked for again, once; then "
                               "results are collected.\nexec {}\n",
                               shellCommand({ownProgram(), "submit", folder_.string(), "--engine",

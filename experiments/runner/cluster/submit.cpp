@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <set>
 
 #include "core/base/error.h"
 #include "experiments/report/text.h"
@@ -51,44 +53,44 @@ class Submitter {
       round_ = submissions_.round() + 1;
       options_ = request_.options.empty() ? submissions_.options : request_.options;
     }
-    if (request_.engine == "slurm") {
-      engine_ = makeSlurm(folder_, plan_, options_);
-      if (!request_.goesOn) requireEmptyQueue();
-    } else {
-      engine_ = makeLocal(folder_, request_.processes);
-    }
+    const bool isSlurm = request_.engine == "slurm";
+    engine_ =
+        isSlurm ? makeSlurm(folder_, plan_, options_) : makeLocal(folder_, request_.processes);
+    if (!request_.goesOn && (isSlurm || submissions_.engine == "slurm")) requireEmptyQueue(isSlurm);
     submissions_.engine = request_.engine;
     submissions_.options = options_;
   }
 
   Submitted submit() {
-    while (true) {
+    if (request_.goesOn && goesOnLater()) return std::move(submitted_);
+    do {
       finishReferences();
-      std::optional<Error> refusal;
-      try {
-        launchMissing();
-      } catch (const Error& error) {
-        if (submitted_.jobs.empty()) throw;
-        refusal = error;  // jobs are in the queue already, and something is to go on after them
-      }
-      if (engine_->hasJobs() && !submitted_.jobs.empty()) {
-        goOnAfter(refusal);
+      launchMissing();
+      if (!submitted_.jobs.empty()) {
+        goOnAfter(idsOf(submitted_.jobs));
         return std::move(submitted_);
       }
-      if (!isLaunched_) break;
-    }
+      // What is refused now may be taken later, but tables are made of what there is.
+      if (submitted_.refusal && !request_.goesOn) return std::move(submitted_);
+    } while (isLaunched_);
     submitted_.collected = collectResults(folder_, plan_, folder_);
-    submissions_.collected = round_;
+    submissions_.collected = submissions_.round();
     writeSubmissions(folder_, submissions_);
     return std::move(submitted_);
   }
 
  private:
-  void requireEmptyQueue() const {
+  static std::vector<std::string> idsOf(const std::vector<Submission>& jobs) {
+    std::vector<std::string> ids;
+    for (const Submission& job : jobs) ids.push_back(job.id);
+    return ids;
+  }
+
+  void requireEmptyQueue(bool mustAnswer) const {
     const auto queue = slurmQueue(folder_, plan_);
-    if (!queue)
+    if (!queue && mustAnswer)
       failInput("submit: squeue does not answer, so nobody knows what is in the queue already");
-    if (queue->empty()) return;
+    if (!queue || queue->empty()) return;
     failUsage(
         fmt::format("submit {0}: {1} of this plan are in the queue already, job {2} first; "
                     "`restlab status {0}` "
@@ -96,28 +98,47 @@ class Submitter {
                     folder_.string(), counted(queue->size(), "job"), queue->front().id));
   }
 
-  // Hands over the job that goes on. `refusal`: of a part of the tasks.
-  void goOnAfter(const std::optional<Error>& refusal) {
-    std::vector<std::string> ids;
-    for (const Submission& job : submitted_.jobs) ids.push_back(job.id);
+  // Returns whether jobs of the plan are in the queue beside this one, after which another one goes
+  // on: this one was requeued after it had handed them over.
+  bool goesOnLater() {
+    const char* own = std::getenv("SLURM_JOB_ID");
+    const auto queue = own ? slurmQueue(folder_, plan_) : std::nullopt;
+    std::set<std::string> ids;
+    for (const QueuedJob& job : queue.value_or(std::vector<QueuedJob>()))
+      if (job.state != "COMPLETING") ids.insert(job.id.substr(0, job.id.find('_')));
+    if (own) ids.erase(own);
+    if (ids.empty()) return false;
+    const Submission* last = submissions_.all.empty() ? nullptr : &submissions_.all.back();
+    if (last == nullptr || !last->tasks.empty() || ids.count(last->id) == 0)
+      goOnAfter({ids.begin(), ids.end()});
+    return true;
+  }
+
+  // Hands over the job that goes on after `ids`. Where that or a part of the tasks was refused,
+  // this is said with what is in the queue.
+  void goOnAfter(const std::vector<std::string>& ids) {
     const std::string there =
         fmt::format("{}, {} first, {} in the queue", counted(ids.size(), "job"), ids.front(),
                     ids.size() == 1 ? "is" : "are");
+    std::optional<Error>& refusal = submitted_.refusal;
+    const Asked asked = askedToGoOn();
+    std::string id;
     try {
-      const Asked asked = askedToGoOn();
-      keepJob({engine_->goOn(asked, ids), {}, asked, round_, utcNow()});
+      id = engine_->goOn(asked, ids);
     } catch (const Error& error) {
-      throw Error(error.code(),
-                  fmt::format("{}; {}: when they have ended, `restlab submit {} --engine slurm` "
-                              "goes on",
-                              refusal ? refusal->what() : error.what(), there, folder_.string()));
+      refusal =
+          Error(error.code(),
+                fmt::format("{}; {}: when they have ended, `restlab submit {} --engine slurm` "
+                            "goes on",
+                            refusal ? refusal->what() : error.what(), there, folder_.string()));
+      return;
     }
-    const std::string& next = submitted_.jobs.back().id;
-    if (request_.prints) print("{} goes on when they have ended\n", next);
+    keepJob({id, {}, asked, round_, utcNow()});
+    if (request_.prints) print("{} goes on when they have ended\n", id);
     if (!refusal) return;
-    throw Error(refusal->code(),
-                fmt::format("{}; {}, and job {} goes on with the rest when they have ended",
-                            refusal->what(), there, next));
+    refusal = Error(refusal->code(),
+                    fmt::format("{}; {}, and job {} goes on with the rest when they have ended",
+                                refusal->what(), there, id));
   }
 
   // Memory for a merge of the largest reference, and time to read all chunks and jobs.
@@ -137,7 +158,10 @@ class Submitter {
       }
       asked.memoryMiB += 1024.0 + plan_.residentMiB;
     }
-    return ofUser(asked, 1.0);
+    // The user's words are for tasks: this job may need more.
+    const Asked own = ofUser(asked, 1.0);
+    return {own.seconds > 0.0 ? std::max(own.seconds, asked.seconds) : 0.0,
+            own.memoryMiB > 0.0 ? std::max(own.memoryMiB, asked.memoryMiB) : 0.0};
   }
 
   Asked ofUser(const Asked& asked, double times) const {
@@ -215,19 +239,27 @@ class Submitter {
     return ofUser(askedFor(plan_, tasks, times), times);
   }
 
-  // Each id is kept before the next is asked for.
+  // Each id is kept before the next is asked for. What the scheduler refuses, as it asks for too
+  // much, keeps nothing else back.
   void launch(const std::vector<uint64_t>& indices, double times) {
     std::vector<Task> tasks;
     for (const uint64_t index : indices) tasks.push_back(plan_.task(index));
     const Asked asked = askedOf(tasks, times);
     for (const std::vector<uint64_t>& part : engine_->parts(indices)) {
-      isLaunched_ = true;
       if (!engine_->hasJobs()) {
+        isLaunched_ = true;
         keep({"", part, asked, round_, utcNow()});
         engine_->launch(part, asked);
         continue;
       }
-      keepJob({engine_->launch(part, asked), part, asked, round_, utcNow()});
+      std::string id;
+      try {
+        id = engine_->launch(part, asked);
+      } catch (const Error& error) {
+        if (!submitted_.refusal) submitted_.refusal = error;
+        continue;
+      }
+      keepJob({id, part, asked, round_, utcNow()});
       if (!request_.prints) continue;
       printText(fmt::format("{}: {}, tasks {}, each with {} asked for\n", submitted_.jobs.back().id,
                             tasks.front().isReference ? "references" : "runs", rangesText(part),
@@ -295,7 +327,7 @@ class Submitter {
   uint64_t round_ = 0;
   std::unique_ptr<Engine> engine_;
   std::vector<bool> isReady_;  // by reference: merged, and good enough
-  bool isLaunched_ = false;
+  bool isLaunched_ = false;    // tasks have ended, by an engine without jobs
   Submitted submitted_;
 };
 

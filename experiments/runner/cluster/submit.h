@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.h"
 #include "experiments/runner/cluster/collect.h"
 #include "experiments/runner/cluster/submissions.h"
 
@@ -22,6 +23,7 @@ struct SubmitRequest {
 struct Submitted {
   std::vector<Submission> jobs;        // of the scheduler; the last one goes on with the plan
   std::optional<Collected> collected;  // nothing while jobs go on
+  std::optional<Error> refusal;        // by the scheduler: of a part of the tasks, or of that job
 };
 
 // Merges references whose chunks are there, adds chunks where an error is not small enough, and
@@ -29,8 +31,8 @@ struct Submitted {
 // result (killed, out of memory or time, a lost node) is handed over once more, for twice the
 // memory and time, one that never began or whose chunk is damaged once more as it was; one that
 // ended with an error is not. With jobs: the last of them goes on from here. Without: returns when
-// nothing is left to do. Throws Error: if the scheduler refuses a part (what it has taken goes on),
-// or if jobs of this plan are in the queue and it is called by hand.
+// nothing is left to do. Throws Error if jobs of this plan are in the queue and it is called by
+// hand.
 Submitted submitPlan(const SubmitRequest& request, Plan plan);
 
 }  // namespace restlab

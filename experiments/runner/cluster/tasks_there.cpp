@@ -48,7 +48,9 @@ TasksThere tasksThere(const fs::path& folder, const Plan& plan) {
     std::optional<bool> isMerged;  // asked for once: the file has to be read
     for (uint64_t index = group.firstTask; index < group.endTask(); ++index) {
       const Task task = Plan::taskOf(group, index);
-      bool isDone = isThereFile(resultFile(folder, plan, task));
+      // A whole reference may be there and not be good enough, or damaged.
+      const bool isWhole = group.isReference && plan.references[group.of].isWhole;
+      bool isDone = !isWhole && isThereFile(resultFile(folder, plan, task));
       if (!isDone && group.isReference) {
         if (!isMerged) isMerged = isThere(folder, plan, plan.references[group.of]);
         isDone = *isMerged;
