@@ -70,7 +70,7 @@ class Submitter {
         goOnAfter(idsOf(submitted_.jobs));
         return std::move(submitted_);
       }
-      // What is refused now may be taken later, but tables are made of what there is.
+      // Tasks refused now may be taken later, but tables are made of what there is.
       if (submitted_.refusal && !request_.goesOn) return std::move(submitted_);
     } while (isLaunched_);
     submitted_.collected = collectResults(folder_, plan_, folder_);
