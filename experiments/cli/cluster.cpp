@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "core/base/error.h"
 #include "experiments/cli/options.h"
@@ -44,6 +45,7 @@ struct CollectOptions {
 
 struct SubmitOptions {
   PlanOptions plan;
+  std::string planning;  // the first option that only planning knows, where one was given
   SubmitRequest request;
   bool json = false;
 };
@@ -148,6 +150,12 @@ void submit(const SubmitOptions& options, Outcome& outcome) {
   request.prints = !options.json;
   if (isPlanFolder(options.plan.suite.suite)) {
     request.folder = fs::absolute(options.plan.suite.suite).lexically_normal();
+    if (!options.planning.empty()) {
+      failUsage(
+          fmt::format("submit {}: {} was settled when this was planned; submit the suite with "
+                      "it, and another folder with -o",
+                      options.plan.suite.suite, options.planning));
+    }
     if (options.plan.dryRun) {
       printText(planTable(readPlan(request.folder)));
       return;
@@ -231,7 +239,14 @@ Action addSubmitVerb(CLI::App& app) {
   verb->add_flag("--json", options->json, "jobs, and what is missing at the end, as JSON")
       ->excludes("--dry-run");
   verb->add_flag("--go-on", options->request.goesOn, "of the scripts that this writes")->group("");
-  return [options](Outcome& outcome) { submit(*options, outcome); };
+  return [options, verb](Outcome& outcome) {
+    const std::set<std::string> any = {"suite",  "--engine", "--sbatch",  "--jobs",
+                                       "--json", "--go-on",  "--dry-run", "--estimate"};
+    for (const CLI::Option* option : verb->get_options())
+      if (option->count() > 0 && any.count(option->get_name()) == 0 && options->planning.empty())
+        options->planning = option->get_name();
+    submit(*options, outcome);
+  };
 }
 
 }  // namespace restlab

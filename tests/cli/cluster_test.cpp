@@ -163,6 +163,37 @@ TEST_F(ClusterTest, ADamagedResultIsMissingAndDoneAnew) {
   expectSameTables("shared");
 }
 
+TEST_F(ClusterTest, TasksOfAnotherSuiteOrReferenceAreNotMixed) {
+  plan();
+  workAll();
+  std::string bytes = read("shared/done/000003.tar");
+  const std::string word = "\"reference_hash\": \"";
+  const size_t hash = bytes.find(word);
+  ASSERT_LT(hash, bytes.size());
+  char& digit = bytes[hash + word.size()];
+  digit = digit == '0' ? '1' : '0';
+  write("shared/done/000003.tar", bytes);
+  // It is made anew by the same call.
+  const ProgramResult made = run("submit shared");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("000003.tar: is measured against another reference than task 2"),
+            std::string::npos)
+      << made.err;
+  runAlone();
+  expectSameTables("shared");
+
+  const ProgramResult more = run("submit shared -q --set runs=9");
+  EXPECT_EQ(more.code, 2);
+  EXPECT_NE(more.err.find("--set was settled when this was planned"), std::string::npos)
+      << more.err;
+  fs::remove(path("shared/done/000003.tar"));
+  write("shared/suite.toml", read("shared/suite.toml") + "\n");
+  const ProgramResult other = work(3);
+  EXPECT_EQ(other.code, 3);
+  EXPECT_NE(other.err.find("suite.toml: was changed since this was planned"), std::string::npos)
+      << other.err;
+}
+
 TEST_F(ClusterTest, WhatIsDamagedByItselfIsMadeAnew) {
   plan();
   workAll();

@@ -49,7 +49,10 @@ class Collector {
  private:
   // Returns false if some jobs were damaged. They are removed.
   bool makeTables() {
+    const uint64_t setAside = collected_.setAside;
     collected_ = Collected();
+    collected_.setAside = setAside;
+    references_.clear();
     Json blocks = Json::array();
     {
       const FolderLock lock(out_);
@@ -119,6 +122,7 @@ class Collector {
       const std::string& reference = plan_.tables[task.of].referenceHash;
       if (!reference.empty() && head.at("reference_hash").get<std::string>() != reference)
         failInput(fmt::format("{}: is measured against another reference", file.string()));
+      requireSameReference(task, head, file);
       unpack(file, head);
       std::vector<std::pair<std::string, JobData>> jobs;
       for (const char* list : {"jobs", "images"}) {
@@ -139,15 +143,29 @@ class Collector {
       return true;
     } catch (const Error& error) {
       if (std::string(error.what()).rfind(file.string(), 0) != 0) throw;
-      // Whoever looks at names alone must not take it for done.
-      std::error_code status;
-      fs::rename(file, file.string() + ".damaged", status);
-      logWarning(fmt::format("{}; `restlab work {} --index {}` does it anew", error.what(),
-                             folder_.string(), task.index));
+      setAside(task, file, error.what());
     } catch (const nlohmann::json::exception& error) {
-      logWarning(fmt::format("{}: {}; left out", file.string(), error.what()));
+      setAside(task, file, fmt::format("{}: is damaged: {}", file.string(), error.what()));
     }
     return false;
+  }
+
+  // Renames a result that is not sound: whoever looks at names alone must not take it for done.
+  void setAside(const Task& task, const fs::path& file, const std::string& why) {
+    std::error_code status;
+    fs::rename(file, file.string() + ".damaged", status);
+    if (!status) ++collected_.setAside;
+    logWarning(fmt::format("{}; `restlab work {} --index {}` does it anew", why, folder_.string(),
+                           task.index));
+  }
+
+  // References by a limit of time are other ones when they are rendered anew.
+  void requireSameReference(const Task& task, const Json& head, const fs::path& file) {
+    const auto hash = head.at("reference_hash").get<std::string>();
+    const auto [first, isFirst] = references_.try_emplace(task.of, hash, task.index);
+    if (first->second.first == hash) return;
+    failInput(fmt::format("{}: is measured against another reference than task {}", file.string(),
+                          first->second.second));
   }
 
   // Returns the job without its images, which are read once, for the tables.
@@ -254,6 +272,7 @@ class Collector {
   JobStore store_;
   bool isElsewhere_ = false;
   Collected collected_;
+  std::map<size_t, std::pair<std::string, uint64_t>> references_;  // by table: hash, first task
   std::set<std::string> devices_;
   std::vector<std::string> processors_, nodes_;
   Json machine_;

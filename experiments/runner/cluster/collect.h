@@ -13,6 +13,7 @@ struct Collected {
   std::string tables;             // markdown
   std::vector<uint64_t> missing;  // tasks without a sound result
   uint64_t tasks = 0;
+  uint64_t setAside = 0;  // results that were not sound, and have another name now
 };
 
 // Unpacks results into `out` (which may be the plan's folder), writes run.json and results.jsonl,

@@ -68,6 +68,8 @@ class Planner {
     }
     plan_.residentMiB = request_.measures ? peakResidentMiB() : 0.0;
     makeGroups();
+    const std::string& suite = points_.front().resolved;
+    plan_.suiteHash = hexHash(XXH3_64bits(suite.data(), suite.size()));
     plan_.id = idOf();
     return std::move(plan_);
   }

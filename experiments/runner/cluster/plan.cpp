@@ -2,9 +2,11 @@
 
 #include <dirent.h>
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "core/base/control_characters.h"
 #include "core/base/error.h"
@@ -12,6 +14,7 @@
 #include "core/image/io/atomic_file.h"
 #include "experiments/runner/base/build_info.h"
 #include "experiments/runner/base/files.h"
+#include "experiments/runner/suite/prepare.h"
 
 namespace restlab {
 
@@ -72,6 +75,7 @@ Json groupsJson(const Plan& plan) {
 Plan planOfJson(const Json& json) {
   Plan plan;
   plan.id = json.at("id").get<std::string>();
+  plan.suiteHash = json.at("suite_hash").get<std::string>();
   plan.suite = json.at("suite").get<std::string>();
   plan.file = json.at("file").get<std::string>();
   plan.suiteFolder = json.at("suite_folder").get<std::string>();
@@ -226,6 +230,7 @@ void writePlan(const fs::path& folder, const Plan& plan) {
     devices.push_back({use.backend, use.device, use.rayTracing});
   const Json json = {{"schema", kPlanSchema},
                      {"id", plan.id},
+                     {"suite_hash", plan.suiteHash},
                      {"suite", plan.suite},
                      {"file", plan.file},
                      {"suite_folder", plan.suiteFolder},
@@ -284,6 +289,14 @@ Plan readPlan(const fs::path& folder) {
 
 std::vector<Suite> openPlan(const fs::path& folder, const Plan& plan) {
   const fs::path file = fs::absolute(folder) / "suite.toml";
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  if (hexHash(XXH3_64bits(text.str().data(), text.str().size())) != plan.suiteHash) {
+    failInput(
+        fmt::format("{}: was changed since this was planned, or cannot be read; plan the changed "
+                    "suite into another folder",
+                    file.string()));
+  }
   std::error_code status;
   if (fs::is_directory(plan.workingFolder, status)) fs::current_path(plan.workingFolder, status);
   std::vector<Suite> points = loadSuites(file, {}, {});

@@ -61,6 +61,7 @@ struct Task {
 
 struct Plan {
   std::string id;  // of suite, selection, sources and chunks; results of another plan are refused
+  std::string suiteHash;         // of the text of suite.toml beside it
   nlohmann::ordered_json build;  // buildJson() of the program that planned
   std::string suite, file, suiteFolder, workingFolder, planned;
   std::vector<std::string> argv, scenes, methods, skipped;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "core/base/error.h"
 #include "experiments/runner/base/log.h"
@@ -32,9 +33,11 @@ bool setDamagedAside(const fs::path& folder, const Plan& plan, size_t reference,
     const fs::path file = resultFile(folder, plan, task);
     const std::string why = whyNotChunk(needed.scene, needed.config,
                                         {task.first, task.end - task.first}, file, plan.target);
-    if (why.empty()) continue;
+    // A file that cannot be opened may be sound, and seen by other nodes.
+    if (why.empty() || !std::ifstream(file)) continue;
     std::error_code status;
     fs::rename(file, file.string() + ".damaged", status);
+    if (status) continue;
     logWarning(fmt::format("{}; task {} is to be done anew", why, task.index));
     isAny = true;
   }

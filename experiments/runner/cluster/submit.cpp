@@ -63,17 +63,21 @@ class Submitter {
 
   Submitted submit() {
     if (request_.goesOn && goesOnLater()) return std::move(submitted_);
-    do {
-      finishReferences();
-      launchMissing();
-      if (!submitted_.jobs.empty()) {
-        goOnAfter(idsOf(submitted_.jobs));
-        return std::move(submitted_);
-      }
-      // Tasks refused now may be taken later, but tables are made of what there is.
-      if (submitted_.refusal && !request_.goesOn) return std::move(submitted_);
-    } while (isLaunched_);
-    submitted_.collected = collectResults(folder_, plan_, folder_);
+    for (bool isAgain = false; !submitted_.collected; isAgain = true) {
+      do {
+        finishReferences();
+        launchMissing();
+        if (!submitted_.jobs.empty()) {
+          goOnAfter(idsOf(submitted_.jobs));
+          return std::move(submitted_);
+        }
+        // Tasks refused now may be taken later, but tables are made of what there is.
+        if (submitted_.refusal && !request_.goesOn) return std::move(submitted_);
+      } while (isLaunched_);
+      Collected collected = collectResults(folder_, plan_, folder_);
+      // Results that turned out to be damaged are made anew, once.
+      if (collected.setAside == 0 || isAgain) submitted_.collected = std::move(collected);
+    }
     submissions_.collected = submissions_.round();
     writeSubmissions(folder_, submissions_);
     return std::move(submitted_);
@@ -143,23 +147,21 @@ class Submitter {
 
   // Memory for a merge of the largest reference, and time to read all chunks and jobs.
   Asked askedToGoOn() const {
-    Asked asked;
-    if (plan_.residentMiB > 0.0) {
-      double bytes = 0.0;
-      for (const TaskGroup& group : plan_.groups()) {
-        if (!group.isReference) continue;
-        bytes += double(plan_.references[group.of].pixels) *
-                 double(chunkFileBytesPerPixel(group.end - group.first));
-      }
-      asked.seconds = kGoOnS + bytes / kBytesPerS + double(plan_.tasks()) * kTaskS;
-      for (const PlannedReference& reference : plan_.references) {
-        const double own = double(reference.pixels) * double(referenceBytesPerPixel(plan_.target));
-        asked.memoryMiB = std::max(asked.memoryMiB, own / kMiB);
-      }
-      asked.memoryMiB += 1024.0 + plan_.residentMiB;
+    double bytes = 0.0, mebibytes = 0.0;
+    for (const TaskGroup& group : plan_.groups()) {
+      if (!group.isReference) continue;
+      bytes += double(plan_.references[group.of].pixels) *
+               double(chunkFileBytesPerPixel(group.end - group.first));
     }
-    // The user's words are for tasks: this job may need more.
-    const Asked own = ofUser(asked, 1.0);
+    for (const PlannedReference& reference : plan_.references) {
+      const double own = double(reference.pixels) * double(referenceBytesPerPixel(plan_.target));
+      mebibytes = std::max(mebibytes, own / kMiB);
+    }
+    const Asked asked = {kGoOnS + bytes / kBytesPerS + double(plan_.tasks()) * kTaskS,
+                         mebibytes + 1024.0 + plan_.residentMiB};
+    // Nothing is asked for where nothing was measured, but by the user's words. They are for tasks:
+    // this job may need more.
+    const Asked own = ofUser(plan_.residentMiB > 0.0 ? asked : Asked(), 1.0);
     return {own.seconds > 0.0 ? std::max(own.seconds, asked.seconds) : 0.0,
             own.memoryMiB > 0.0 ? std::max(own.memoryMiB, asked.memoryMiB) : 0.0};
   }
