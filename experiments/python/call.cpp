@@ -46,6 +46,15 @@ void enterProcess() {
       fmt::format("this process was forked while a thread was in a call of restlab; {}", kSpawn));
 }
 
+// Whether the interpreter ends, and this is not its last thread.
+bool isOver() { return lastThread && *lastThread != std::this_thread::get_id(); }
+
+// Never returns. An exception would be printed while the interpreter takes stderr apart.
+[[noreturn]] void waitForTheEnd() {
+  const py::gil_scoped_release release;
+  while (true) pause();
+}
+
 void endCalls() {
   const py::gil_scoped_release release;
   std::unique_lock lock(callsMutex);
@@ -60,21 +69,26 @@ void endCalls() {
 }  // namespace
 
 CallScope::CallScope() {
-  const std::lock_guard lock(callsMutex);
-  if (lastThread && *lastThread != std::this_thread::get_id())
-    throw Error(ExitCode::interrupted, "interrupted: the interpreter ends");
+  std::unique_lock lock(callsMutex);
+  if (isOver()) {
+    lock.unlock();
+    waitForTheEnd();
+  }
   enterProcess();
   if (isForkedFromCalls) failForked();
   ++calls;
 }
 
 CallScope::~CallScope() {
-  const std::lock_guard lock(callsMutex);
+  std::unique_lock lock(callsMutex);
   if (process != getpid()) {  // a handler of signals has forked in the call
     enterProcess();
   } else if (--calls == 0) {
     callsEnd.notify_all();
   }
+  if (!isOver()) return;
+  lock.unlock();
+  waitForTheEnd();
 }
 
 void waitForCallsAtExit() {

@@ -19,8 +19,8 @@ void addError(pybind11::module_& module);
 void waitForCallsAtExit();
 
 // RAII: a call that the interpreter's exit waits for. Made and destroyed with the interpreter's
-// lock. Throws Error (interrupted) in another thread than the last one, once the interpreter ends,
-// and (badUsage) in a process that was forked while another thread was in a call.
+// lock. Once the interpreter ends, other threads than the last one stay here. Throws Error
+// (badUsage) in a process that was forked while a thread was in a call.
 class CallScope {
  public:
   CallScope();
